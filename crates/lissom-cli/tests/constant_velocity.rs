@@ -98,7 +98,7 @@ fn staircases_give_friction_and_nothing_confusing() {
     near("/friction/coulomb_a/value", 0.5 * (FORWARD + BACKWARD));
     near("/friction/offset_a/value", 0.5 * (FORWARD - BACKWARD));
     assert_eq!(result["drive"]["inertia_kg_m2"], Value::Null);
-    assert_eq!(codes(&result), ["constant-velocity-only", "offset", "classical-figures"]);
+    assert_eq!(codes(&result), ["constant-velocity-only", "offset", "constant-velocity-estimates"]);
     let points = result["methods"]["constant_velocity"]["points"].as_array().unwrap();
     assert_eq!(points.len(), 10);
     assert_eq!(points[0]["run"], "0.csv");

@@ -67,7 +67,7 @@ fn figures_are_within_their_bars() {
         arm.beam().natural_frequencies_rad_s()[0],
     ];
     for ((row, (name, third, regression)), truth) in rows.iter().zip(BARS).zip(truth) {
-        assert_eq!(row["figure"], name);
+        assert_eq!(row["parameter"], name);
         assert!((row["true"].as_f64().unwrap() / truth - 1.0).abs() < 1e-9, "{name}");
         let error = |method: &str| (row[method]["value"].as_f64().unwrap() / truth - 1.0).abs();
         assert!(error("regression") < regression, "{name}: {}", error("regression"));
@@ -99,7 +99,7 @@ fn regression_intervals_are_not_wishful() {
     ];
     for (figure, truth) in figures {
         let value = |key: &str| figure[key].as_f64().unwrap();
-        // One campaign is no study of coverage: four deviations catch wishful ones.
+        // One campaign is no study of coverage: four standard errors catch wishful ones.
         assert!((value("value") - truth).abs() < 4.0 * value("std"), "{figure} {truth}");
     }
 }

@@ -221,7 +221,7 @@ fn a_load_is_planned_and_run() {
         "planned",
     );
     check.look_at(&plan);
-    let gravity = plan["expected"].as_array().unwrap().iter().find(|e| e["figure"] == "gravity");
+    let gravity = plan["expected"].as_array().unwrap().iter().find(|e| e["parameter"] == "gravity");
     let gravity = gravity.unwrap();
     assert_eq!((gravity["wanted"].as_f64(), gravity["value"].as_f64()), (Some(0.003), Some(0.3)));
     assert!(gravity["relative_std"].as_f64().unwrap() < 0.003, "{gravity}");

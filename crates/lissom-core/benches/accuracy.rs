@@ -1,4 +1,4 @@
-//! How exact the lumped beam's figures are from 500 to 100 000 masses.
+//! How exact the lumped beam's estimates are from 500 to 100 000 masses.
 //!
 //! `cargo bench -p lissom-core --bench accuracy` prints a row per beam: largest errors against
 //! `lissom_testmodels::exact` (106 bits). With `--test`, 500 masses alone.

@@ -3,9 +3,9 @@
 //!
 //! `cargo bench -p lissom-core --bench identify`. One evaluation of the cost is a replay of all runs from
 //! end to end: the baseline of both estimators. With its derivatives it stands beside the same by
-//! central differences of the cost, over a hundredth of each parameter's deviation. How far these
-//! would take each parameter elsewhere, in its deviations (as a share of the gradient where that is
-//! steeper), goes to standard error, as do the figures of both estimators and the work that the
+//! central differences of the cost, over a hundredth of each parameter's standard error. How far these
+//! would take each parameter elsewhere, in its standard errors (as a share of the gradient where that is
+//! steeper), goes to standard error, as do the estimates of both estimators and the work that the
 //! search did. `RAYON_NUM_THREADS=1` measures one core.
 #![expect(clippy::unwrap_used, reason = "the models are fixed and valid")]
 #![expect(clippy::print_stderr, reason = "accuracy beside speed")]
@@ -137,8 +137,8 @@ fn demo(c: &mut Criterion) {
     let (campaign, omega) = campaign();
     let start = start(&campaign, &omega);
     let found = output_error(&Prepared::of(&campaign), &start).unwrap();
-    let figures = found.parameters.iter().map(|p| found.estimate(*p).unwrap());
-    for (p, e) in found.parameters.iter().zip(figures.clone()) {
+    let estimates = found.parameters.iter().map(|p| found.estimate(*p).unwrap());
+    for (p, e) in found.parameters.iter().zip(estimates.clone()) {
         eprintln!("  {} {:.8e} ± {:.1e}", p.name(), e.value, e.std);
     }
     let steps: usize = found.stages.iter().map(|s| s.iterations.len()).sum();
@@ -147,7 +147,7 @@ fn demo(c: &mut Criterion) {
         campaign: &campaign,
         arm: &found.arm,
         parameters: &found.parameters,
-        std: figures.map(|e| e.std).collect(),
+        std: estimates.map(|e| e.std).collect(),
         windows: &found.windows,
         noise: &found.stages.last().unwrap().noise,
     };

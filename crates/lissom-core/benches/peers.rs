@@ -1,4 +1,4 @@
-//! lissom's own figures for `benches/peers/run.py`, which lays them beside those of other tools.
+//! lissom's own estimates for `benches/peers/run.py`, which lays them beside those of other tools.
 //!
 //! `cargo bench -p lissom-core --bench peers -- FOLDER`: each `*.beam.csv` of the folder (length, EI and
 //! mass of a span per line, base to tip) is measured with the `*.omega.csv` beside it. What comes
@@ -44,10 +44,10 @@ fn measure(name: &str) {
     let (tip_s, tip) = median_s(|| beam.tip_response(&omega));
     let tip: Vec<f64> = tip.iter().map(|g| g.re).collect();
     let (modes_s, modes) = median_s(|| beam.frequencies_rad_s(Base::Clamped, MODES));
-    let figures = json!({
+    let estimates = json!({
         "build_s": build_s, "tip_s": tip_s, "tip": tip, "modes_s": modes_s, "modes_rad_s": modes,
     });
-    std::fs::write(format!("{name}.lissom.json"), figures.to_string()).unwrap();
+    std::fs::write(format!("{name}.lissom.json"), estimates.to_string()).unwrap();
 }
 
 /// Median time of a call \[s\] over at least 5 of them and, where they are short, 0.2 s; and what

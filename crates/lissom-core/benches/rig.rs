@@ -3,7 +3,7 @@
 //! `cargo bench -p lissom-core --bench rig`. The experiment is 60 s of the report's arm in its loop at
 //! 3 ms, 20 000 samples of a sine that sticks; the difference to the event finder goes to standard
 //! error. Preparations are in the times. Batches are 1000 such experiments, each with sensor noise
-//! of its own inside the loop and a figure of friction.
+//! of its own inside the loop and an estimate of friction.
 #![expect(clippy::unwrap_used, reason = "the models are fixed and valid")]
 #![expect(clippy::print_stderr, reason = "accuracy beside speed")]
 

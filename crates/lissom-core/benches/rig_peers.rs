@@ -1,4 +1,4 @@
-//! lissom's own figures for `benches/peers/rig.py`, which lays them beside those of other tools.
+//! lissom's own estimates for `benches/peers/rig.py`, which lays them beside those of other tools.
 //!
 //! `cargo bench -p lissom-core --bench rig_peers -- FILE`: 60 s of the report's arm in its loop, with
 //! up to 80 masses too, and a batch of experiments on one thread and on two.
@@ -55,9 +55,9 @@ fn main() {
             json!({ "masses": masses, "prepare_s": prepare_s, "loop_s": loop_s })
         })
         .into();
-    let figures =
+    let estimates =
         json!({ "growth": growth, "loop_s": loop_s, "angle_rad": angles, "batches": batches });
-    std::fs::write(file, figures.to_string()).unwrap();
+    std::fs::write(file, estimates.to_string()).unwrap();
 }
 
 /// The arm with equal masses on its beam's length.

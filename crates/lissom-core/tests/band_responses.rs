@@ -21,7 +21,7 @@ use num_complex::Complex64;
 const WORST: f64 = 0.05;
 /// See [`WORST`].
 const MEDIAN: f64 = 0.01;
-/// Most deviations that a point may be off: of a complex normal error beyond four, one in 10 million.
+/// Most standard errors that a point may be off: of a complex normal error beyond four, one in 10 million.
 const DEVIATIONS: f64 = 4.0;
 /// Torque per current [N·m/A].
 const TORQUE_CONSTANT: f64 = 0.3;
@@ -70,8 +70,8 @@ fn identified_within(limit_a: f64, experiments: &[Experiment]) -> Identified {
     identify(&campaign, &Options::default(), |_| {}).unwrap()
 }
 
-/// Every band that nothing speaks against is within the bars and its own deviations, its tips within
-/// their deviations and the worst bar, and at least `least` bands are so.
+/// Every band that nothing speaks against is within the bars and its own standard errors, its tips within
+/// their standard errors and the worst bar, and at least `least` bands are so.
 #[track_caller]
 fn bands_hold(found: &Identified, least: usize) {
     assert!(found.output_error.as_ref().is_some_and(OutputError::stands));
@@ -94,7 +94,7 @@ fn bands_hold(found: &Identified, least: usize) {
     assert!(middle < MEDIAN && worst < WORST, "{middle}, {worst}");
 }
 
-/// Relative error of a response, which its deviation covers.
+/// Relative error of a response, which its standard error covers.
 #[track_caller]
 fn error(response: Response, exact: Complex64) -> f64 {
     let off = (response.value - exact).norm();

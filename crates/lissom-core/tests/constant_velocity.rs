@@ -27,7 +27,7 @@ const V: f64 = 1.4e-3;
 const LOOP: f64 = 0.08;
 /// Speeds of a staircase \[rad/s\].
 const SPEEDS: [f64; 6] = [2.0, 4.0, 6.0, 8.0, 10.0, 12.0];
-/// Logs of a statistic. A share of 0.95 is then known to 0.013 (one deviation).
+/// Logs of a statistic. A share of 0.95 is then known to 0.013 (one standard error).
 const SEEDS: u64 = 300;
 
 /// What a log has beside the law.
@@ -114,7 +114,7 @@ fn friction_by_direction_comes_out_of_two_staircases() {
     let found = constant_velocity(&Prepared::of(&both(QUIET, coulomb)));
     assert_eq!(found.points.len(), 12);
     let (f, b) = (found.forward.unwrap(), found.backward.unwrap());
-    // Within 4 deviations, and these within 2 % of the figure.
+    // Within 4 standard errors, and these within 2 % of the estimate.
     for (e, truth) in [(f.coulomb, FORWARD), (b.coulomb, BACKWARD), (f.viscous, V), (b.viscous, V)]
     {
         assert!((e.value - truth).abs() < 4.0 * e.std && e.std < 0.02 * truth, "{e:?} {truth}");
@@ -126,7 +126,7 @@ fn friction_by_direction_comes_out_of_two_staircases() {
     assert!(
         (found.offset.unwrap().value - 0.5 * (f.coulomb.value - b.coulomb.value)).abs() < 1e-12
     );
-    // High speeds and a line to rest: what the slope gains the figure loses.
+    // High speeds and a line to rest: what the slope gains the estimate loses.
     assert!((-1.0..-0.5).contains(&f.correlation));
 }
 
@@ -149,7 +149,7 @@ fn the_points_are_the_means_of_their_stretches() {
 fn nothing_but_rounding_is_left_without_noise() {
     let bench = Bench { noise_a: 0.0, ..QUIET };
     let found = constant_velocity(&Prepared::of(&both(bench, coulomb)));
-    // What 12 bits and the trimmed transients leave: below 2e-4 of the figure.
+    // What 12 bits and the trimmed transients leave: below 2e-4 of the estimate.
     assert!((found.coulomb.unwrap().value / (0.5 * (FORWARD + BACKWARD)) - 1.0).abs() < 2e-4);
 }
 
@@ -158,12 +158,12 @@ fn coverage(bench: Bench) -> [f64; 3] {
     let mut held = [0.0; 3];
     for seed in 0..SEEDS {
         let found = constant_velocity(&Prepared::of(&both(Bench { seed, ..bench }, coulomb)));
-        let figures = [
+        let estimates = [
             (found.coulomb, 0.5 * (FORWARD + BACKWARD)),
             (found.viscous, V),
             (found.offset, 0.5 * (FORWARD - BACKWARD)),
         ];
-        for (count, (e, truth)) in held.iter_mut().zip(figures) {
+        for (count, (e, truth)) in held.iter_mut().zip(estimates) {
             *count += f64::from(u8::from(covers(e.unwrap(), truth))) / SEEDS as f64;
         }
     }
@@ -179,7 +179,7 @@ fn intervals_hold_the_truth_as_often_as_they_say() {
     ] {
         let held = coverage(bench);
         println!("coverage of 95 % intervals, {name}: {held:.3?}");
-        // Three deviations of the share below; above, intervals of no use would pass.
+        // Three standard errors of the share below; above, intervals of no use would pass.
         assert!(held.iter().all(|h| *h > 0.95 - 3.0 * 0.013 && *h < 0.999), "{name}: {held:?}");
     }
 }
@@ -221,7 +221,7 @@ fn sub_linear_friction_is_flagged_as_too_high() {
     let id = identify(&both(QUIET, saturating), &Options::default(), |_| {}).unwrap();
     let curved = id.findings.iter().find(|f| f.code() == "extrapolation-curved").unwrap();
     assert!(curved.message().contains("is too high"), "{}", curved.message());
-    // The figure taken is that of the slowest speeds.
+    // The estimate taken is that of the slowest speeds.
     let taken = id.friction.forward.unwrap();
     let line = id.constant_velocity.as_ref().unwrap().forward.unwrap();
     assert_eq!(taken, line.near_rest());
@@ -311,7 +311,7 @@ fn lines_are_refused_with_a_reason() {
     assert_eq!(refused(&[5.0], QUIET), Err(LineError::TooFewSpeeds { found: 1 }));
     // 4 % apart: one speed.
     assert_eq!(refused(&[5.0, 5.2], QUIET), Err(LineError::TooFewSpeeds { found: 1 }));
-    // An ampere of noise from 18 rad/s on: several times the figure is left unknown.
+    // An ampere of noise from 18 rad/s on: several times the estimate is left unknown.
     let close = (0..20).filter(|&seed| {
         match refused(&[18.0, 19.0, 20.0], Bench { noise_a: 1.0, seed, ..QUIET }) {
             Err(LineError::TooClose { coulomb, std }) => std > coulomb.abs(),
@@ -330,7 +330,10 @@ fn lines_are_refused_with_a_reason() {
 fn a_campaign_of_constant_velocities_alone_gives_a_clear_result() {
     let id = identify(&both(QUIET, coulomb), &Options::default(), |_| {}).unwrap();
     assert!(id.runs.iter().all(|r| matches!(r.kind, RunKind::ConstantVelocity)));
-    assert_eq!(codes(&id.findings), ["constant-velocity-only", "offset", "classical-figures"]);
+    assert_eq!(
+        codes(&id.findings),
+        ["constant-velocity-only", "offset", "constant-velocity-estimates"]
+    );
     assert_eq!(id.findings[0].severity(), Severity::Refusal);
     assert!(id.regression.is_none() && id.third_harmonic.is_none() && id.responses.is_empty());
     let classical = id.constant_velocity.unwrap();
@@ -446,7 +449,7 @@ fn a_negative_torque_constant_turns_the_directions_about() {
     let campaign = campaign_of(reversed, Axis::Rotary, both(QUIET, coulomb).runs);
     let id = identify(&campaign, &Options::default(), |_| {}).unwrap();
     assert!(id.friction.coulomb.is_none());
-    assert!(codes(&id.findings).contains(&"negative-figure"));
+    assert!(codes(&id.findings).contains(&"negative-estimate"));
 }
 
 #[test]

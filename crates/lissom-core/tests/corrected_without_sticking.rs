@@ -15,7 +15,7 @@ const WAIT_S: f64 = 300.0;
 const NOISE_STEPS: f64 = 0.5;
 /// Further from the truth than this is no estimate of it.
 const DEVIATIONS: f64 = 4.0;
-/// Deviations of a corrected response over its size, at most.
+/// Standard errors of a corrected response over its size, at most.
 const STD_MOST: f64 = 2e-3;
 
 fn rig() -> Rig {

@@ -29,7 +29,7 @@ fn identified(runs: Vec<Run>) -> Identified {
     identify(&Campaign::new(channels, runs).unwrap(), &Options::default(), |_| ()).unwrap()
 }
 
-fn deviations(found: Estimate, truth: f64) -> f64 {
+fn standard_errors(found: Estimate, truth: f64) -> f64 {
     (found.value - truth).abs() / found.std
 }
 
@@ -48,10 +48,10 @@ fn one_steady_sine_does_not_tell_the_dampings_apart() {
         let said = found.findings.iter().any(|f| f.code() == "damping-kind");
         assert_eq!(said, doubtful, "{:?}", found.findings);
         let damping = found.beam.modes[0].damping_ratio;
-        assert!(deviations(damping, ratio) < 4.0, "{damping:?}, true {ratio}");
+        assert!(standard_errors(damping, ratio) < 4.0, "{damping:?}, true {ratio}");
         assert_eq!(damping.std > 0.2 * ratio, doubtful, "{damping:?}");
         let friction = found.friction.viscous.unwrap();
-        assert!(deviations(friction, viscous) < 4.0, "{friction:?}, true {viscous}");
+        assert!(standard_errors(friction, viscous) < 4.0, "{friction:?}, true {viscous}");
     }
 }
 

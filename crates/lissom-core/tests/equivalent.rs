@@ -9,8 +9,8 @@ use std::f64::consts::FRAC_1_SQRT_2;
 
 use lissom::beam::{DistributedBeam, Piece, TruncatedBeam};
 use lissom::identify::{
-    Damping, Deviations, EquivalentData, EquivalentError, Estimate, MotorData, Response,
-    SharedPoles, equivalent, equivalent_arm, equivalent_beam, fit_shared_poles, response_zeros,
+    Damping, EquivalentData, EquivalentError, Estimate, MotorData, Response, SharedPoles,
+    StdSource, equivalent, equivalent_arm, equivalent_beam, fit_shared_poles, response_zeros,
 };
 use num_complex::Complex64;
 use rand_distr::{Distribution, StandardNormal};
@@ -36,7 +36,7 @@ fn truncated(points: usize) -> TruncatedBeam {
 }
 
 /// Its responses from half the first frequency to twice the last, with noise of a relative deviation;
-/// the deviation that they claim is no less than 1e-3.
+/// the standard error that they claim is no less than 1e-3.
 fn measured(beam: &TruncatedBeam, noise: f64, seed: u64) -> (Vec<f64>, Vec<Vec<Response>>) {
     let mut random = Xoshiro256PlusPlus::seed_from_u64(seed);
     let mut normal = || -> f64 { StandardNormal.sample(&mut random) };
@@ -131,9 +131,9 @@ fn noise_stays_within_its_deviations() {
         for i in 0..3 {
             let b = (found.b[i] - truth.b[i]) / found.b_std[i];
             let a = (0..3).map(|j| (found.a[(i, j)] - truth.a[(i, j)]) / found.a_std[(i, j)]);
-            for deviations in a.chain([b]) {
-                assert!(deviations.abs() < 5.0, "{seed}: {deviations}");
-                within += usize::from(deviations.abs() < 1.96);
+            for standard_errors in a.chain([b]) {
+                assert!(standard_errors.abs() < 5.0, "{seed}: {standard_errors}");
+                within += usize::from(standard_errors.abs() < 1.96);
                 all += 1;
             }
         }
@@ -324,7 +324,7 @@ fn modes_beyond_the_frequencies_are_counted_with_the_inertia() {
             omega_rad_s: omega.clone(),
             outputs: [2, 4].map(|i| omega.iter().map(|w| noisy(angle(*w, i))).collect()).to_vec(),
             motor: Some(motor(&whole, &omega, 0.01, seed)),
-            deviations: Deviations::Measured,
+            std_source: StdSource::Measured,
         };
         let found = equivalent(&data, None).unwrap();
         assert!(found.findings.iter().any(|f| f.code() == "equivalent-spurious-pole"));
@@ -334,8 +334,8 @@ fn modes_beyond_the_frequencies_are_counted_with_the_inertia() {
                 let size = square.abs().sqrt();
                 let near = found.iter().filter(|z| z.square.re * square > 0.0);
                 let off = near.map(|z| {
-                    let figure = z.omega_rad_s;
-                    ((figure.value - size).abs() / figure.std, figure.std / figure.value)
+                    let estimate = z.omega_rad_s;
+                    ((estimate.value - size).abs() / estimate.std, estimate.std / estimate.value)
                 });
                 let least = off.min_by(|a, b| a.0.total_cmp(&b.0)).unwrap();
                 assert!(least.0 < 4.5 && least.1 < 0.05, "seed {seed}: {size} {least:?} {found:?}");

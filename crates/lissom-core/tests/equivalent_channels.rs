@@ -4,8 +4,8 @@
 use std::f64::consts::FRAC_1_SQRT_2;
 
 use lissom::identify::{
-    Deviations, Equivalent, EquivalentData, EquivalentRefusal, Finding, MotorData, Response,
-    Severity, equivalent,
+    Equivalent, EquivalentData, EquivalentRefusal, Finding, MotorData, Response, Severity,
+    StdSource, equivalent,
 };
 use num_complex::Complex64;
 use rand_distr::{Distribution, StandardNormal};
@@ -24,7 +24,7 @@ struct Channels {
     delays_s: [f64; 2],
     noise: f64,
     seed: u64,
-    deviations: Deviations,
+    std_source: StdSource,
 }
 
 const CLEAN: Channels = Channels {
@@ -33,7 +33,7 @@ const CLEAN: Channels = Channels {
     delays_s: [0.0; 2],
     noise: 0.01,
     seed: 1,
-    deviations: Deviations::Measured,
+    std_source: StdSource::Measured,
 };
 
 fn data(of: Channels) -> EquivalentData {
@@ -48,8 +48,8 @@ fn data(of: Channels) -> EquivalentData {
         };
         let value = (part(0) + part(1)) * (-s * of.delays_s[i]).exp();
         let error = Complex64::new(normal(), normal()) * (of.noise * value.norm() * FRAC_1_SQRT_2);
-        let std = match of.deviations {
-            Deviations::FromResidual => 1e-6,
+        let std = match of.std_source {
+            StdSource::FromResidual => 1e-6,
             _ => of.noise.max(1e-3),
         };
         Response { value: value + error, std: std * value.norm() }
@@ -60,7 +60,7 @@ fn data(of: Channels) -> EquivalentData {
         omega_rad_s: omega,
         outputs,
         motor: None,
-        deviations: of.deviations,
+        std_source: of.std_source,
     }
 }
 
@@ -68,14 +68,14 @@ fn codes(found: &Equivalent) -> Vec<&str> {
     found.findings.iter().map(Finding::code).collect()
 }
 
-/// Largest error of a frequency or gain in its deviations, and of a frequency as a share.
+/// Largest error of a frequency or gain in its standard errors, and of a frequency as a share.
 fn off(found: &Equivalent) -> (f64, f64) {
     assert_eq!(found.modes.len(), 2, "{:?}", found.fit.poles);
     let (mut worst, mut share) = (0.0_f64, 0.0_f64);
     for (k, omega) in OMEGA.iter().enumerate() {
-        let figure = found.kept.natural_frequency_rad_s(k);
-        worst = worst.max((figure.value - omega).abs() / figure.std);
-        share = share.max((figure.value / omega - 1.0).abs());
+        let estimate = found.kept.natural_frequency_rad_s(k);
+        worst = worst.max((estimate.value - omega).abs() / estimate.std);
+        share = share.max((estimate.value / omega - 1.0).abs());
         for (i, gains) in GAINS.iter().enumerate() {
             let gain = found.kept.static_gain(i, k);
             worst = worst.max((gain.value - gains[k]).abs() / gain.std);
@@ -92,9 +92,9 @@ fn said(found: &Equivalent, code: &str) -> Option<String> {
 #[test]
 fn a_delay_is_found_and_taken_out() {
     for (delay_ms, noise) in [(0.02, 0.01), (-0.3, 0.0), (1.0, 1e-3)] {
-        for deviations in [Deviations::Measured, Deviations::FromResidual] {
+        for std_source in [StdSource::Measured, StdSource::FromResidual] {
             let delays_s = [1e-3 * delay_ms, 2e-4 * delay_ms];
-            let of = Channels { delays_s, noise, deviations, ..CLEAN };
+            let of = Channels { delays_s, noise, std_source, ..CLEAN };
             let found = equivalent(&data(of), None).unwrap();
             let (worst, share) = off(&found);
             println!("{delay_ms} ms, noise {noise}: {worst:.2} deviations, {share:.1e} off");
@@ -119,10 +119,10 @@ fn a_long_delay_is_refused() {
 
 #[test]
 fn damping_within_the_beam_is_in_the_fit() {
-    use Deviations::{FromResidual, Measured};
+    use StdSource::{FromResidual, Measured};
     let cases = [(0.01, 0.0, Measured), (0.01, 1e-3, FromResidual), (0.03, 0.01, Measured)];
-    for (damping, noise, deviations) in cases {
-        let of = Channels { damping, within: 1.0, noise, deviations, ..CLEAN };
+    for (damping, noise, std_source) in cases {
+        let of = Channels { damping, within: 1.0, noise, std_source, ..CLEAN };
         let found = equivalent(&data(of), None).unwrap();
         let (worst, share) = off(&found);
         println!("ζ {damping}, noise {noise}: {worst:.2} deviations, {share:.1e} off");
@@ -168,7 +168,7 @@ fn coupling_knows_damping_within_the_beam() {
     assert!((arm.motor_response(at) * torque(at) / 0.25 - 1.0).norm() < 1e-8);
 }
 
-/// To first order they are the same terms in s: figures are right, or there is a warning.
+/// To first order they are the same terms in s: estimates are right, or there is a warning.
 #[test]
 fn delay_and_damping_within_at_once_do_not_pass_silently() {
     for (delay_ms, noise) in [(-0.1, 1e-3), (0.1, 1e-3)] {
@@ -183,9 +183,9 @@ fn delay_and_damping_within_at_once_do_not_pass_silently() {
 
 #[test]
 fn clean_responses_stay_as_they_were() {
-    for deviations in [Deviations::Measured, Deviations::FromResidual] {
+    for std_source in [StdSource::Measured, StdSource::FromResidual] {
         for seed in 0..4 {
-            let found = equivalent(&data(Channels { seed, deviations, ..CLEAN }), None).unwrap();
+            let found = equivalent(&data(Channels { seed, std_source, ..CLEAN }), None).unwrap();
             assert!(found.findings.is_empty() && off(&found).0 < 4.5, "{seed} {:?}", codes(&found));
         }
     }
@@ -194,8 +194,8 @@ fn clean_responses_stay_as_they_were() {
 /// A phase that is off by the same angle everywhere is neither a delay nor damping.
 #[test]
 fn a_turned_phase_is_told_of() {
-    for deviations in [Deviations::Measured, Deviations::FromResidual] {
-        let mut data = data(Channels { deviations, ..CLEAN });
+    for std_source in [StdSource::Measured, StdSource::FromResidual] {
+        let mut data = data(Channels { std_source, ..CLEAN });
         for response in data.outputs.iter_mut().flatten() {
             response.value *= Complex64::from_polar(1.0, 0.02);
         }
@@ -209,9 +209,9 @@ fn a_turned_phase_is_told_of() {
 /// With the phase's sign turned the responses are of poles that gain energy.
 #[test]
 fn a_turned_sign_of_the_phase_is_said() {
-    for deviations in [Deviations::Measured, Deviations::FromResidual] {
+    for std_source in [StdSource::Measured, StdSource::FromResidual] {
         for turned in [&[0, 1][..], &[1]] {
-            let mut data = data(Channels { deviations, damping: 0.01, ..CLEAN });
+            let mut data = data(Channels { std_source, damping: 0.01, ..CLEAN });
             for &i in turned {
                 for response in &mut data.outputs[i] {
                     response.value.im = -response.value.im;

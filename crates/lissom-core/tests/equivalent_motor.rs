@@ -4,8 +4,8 @@
 use std::f64::consts::FRAC_1_SQRT_2;
 
 use lissom::identify::{
-    Deviations, Equivalent, EquivalentData, EquivalentRefusal, Estimate, Finding, MotorData,
-    Response, Severity, equivalent,
+    Equivalent, EquivalentData, EquivalentRefusal, Estimate, Finding, MotorData, Response,
+    Severity, StdSource, equivalent,
 };
 use num_complex::Complex64;
 use rand_distr::{Distribution, StandardNormal};
@@ -93,7 +93,7 @@ fn data(truth: Truth, noise: &Noise) -> EquivalentData {
         }),
         omega_rad_s: omega,
         outputs,
-        deviations: if noise.known { Deviations::Measured } else { Deviations::FromResidual },
+        std_source: if noise.known { StdSource::Measured } else { StdSource::FromResidual },
     }
 }
 
@@ -120,7 +120,7 @@ fn warnings(found: &Equivalent) -> Vec<&str> {
     warned.map(Finding::code).collect()
 }
 
-/// Seeds 0 to 19: each figure is within 4.5 deviations, and this is warned of.
+/// Seeds 0 to 19: each estimate is within 4.5 standard errors, and this is warned of.
 fn sound(
     truth: Truth,
     of_one_size: bool,
@@ -178,7 +178,7 @@ fn friction_left_in_is_told_of() {
     }
 }
 
-/// What is no angle per command does not pass, deviations or none.
+/// What is no angle per command does not pass, standard errors or none.
 #[test]
 fn what_is_no_motors_response_is_told_of() {
     type Made = fn(&[Response], &[f64]) -> Vec<Complex64>;

@@ -184,7 +184,7 @@ fn a_delay_is_noticed_and_measured() {
     within("inertia", found.inertia, 2e-3, 0.01);
     within("coulomb", found.coulomb, 0.06, 0.01);
 
-    // The output error counts it in all figures.
+    // The output error counts it in all estimates.
     let id = identified(current(0.2), Axis::Rotary, vec![], late);
     assert!(id.findings.iter().any(|f| f.code() == "command-lag"));
     let lag = id.output_error.as_ref().unwrap().estimate(Parameter::CommandLag).unwrap();

@@ -425,7 +425,7 @@ fn a_reversed_command() {
     log.measured.iter_mut().for_each(|i| *i = -*i);
     let found = quick(&measured(&joint, log).with_gravity().unwrap());
     assert_eq!(codes(&found)[0], "command-sign");
-    let others = ["negative-figure", "others-doubtful", "missing-term", "unexplained-torque"];
+    let others = ["negative-estimate", "others-doubtful", "missing-term", "unexplained-torque"];
     assert!(!codes(&found).iter().any(|code| others.contains(code)), "{:?}", codes(&found));
     assert!(found.friction.coulomb.is_none() && found.inertia.is_none());
     assert!(found.gravity.is_none());

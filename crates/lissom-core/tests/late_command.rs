@@ -71,17 +71,17 @@ fn a_lag_of_samples_is_no_law_of_friction() {
         let campaign = Campaign::new(channels, runs.into()).unwrap();
         let found = identify(&campaign, &Options::default(), |_| ()).unwrap();
         let lag = found.output_error.as_ref().unwrap().estimate(Parameter::CommandLag);
-        for (name, figure, truth) in [
+        for (name, estimate, truth) in [
             ("Coulomb friction", found.friction.coulomb, COULOMB),
             ("viscous friction", found.friction.viscous, VISCOUS),
             ("inertia", found.inertia, INERTIA),
             ("lag", lag, late as f64 * T),
         ] {
-            let figure = figure.unwrap();
-            let error = figure.value - truth;
+            let estimate = estimate.unwrap();
+            let error = estimate.value - truth;
             assert!(
-                error.abs() < 4.0 * figure.std && figure.std < 2e-3 * truth,
-                "{late} {name} {figure:?}"
+                error.abs() < 4.0 * estimate.std && estimate.std < 2e-3 * truth,
+                "{late} {name} {estimate:?}"
             );
         }
         let warned = found.findings.iter().filter(|f| f.severity() != Severity::Info);

@@ -53,7 +53,7 @@ fn a_late_tip_is_counted_and_said() {
         assert_eq!((lag.is_some(), said.is_some()), (late != 0, late != 0), "{late} {lag:?}");
         let beam = &found.beam;
         let mode = truth.modes[0];
-        for (name, figure, truth) in [
+        for (name, estimate, truth) in [
             ("Coulomb friction", found.friction.coulomb, truth.coulomb_nm),
             ("viscous friction", found.friction.viscous, truth.viscous_nm_s_per_rad[0]),
             ("inertia", found.inertia, truth.inertia_kg_m2),
@@ -64,10 +64,10 @@ fn a_late_tip_is_counted_and_said() {
             if name == "lag" && late == 0 {
                 continue;
             }
-            let figure = figure.unwrap_or_else(|| panic!("{late}: no {name}"));
-            let deviations = (figure.value - truth) / figure.std;
-            assert!(deviations.abs() < 4.0, "{late} {name} {figure:?} {truth}");
-            assert!(figure.std < 5e-3 * truth.abs(), "{late} {name} {figure:?}");
+            let estimate = estimate.unwrap_or_else(|| panic!("{late}: no {name}"));
+            let standard_errors = (estimate.value - truth) / estimate.std;
+            assert!(standard_errors.abs() < 4.0, "{late} {name} {estimate:?} {truth}");
+            assert!(estimate.std < 5e-3 * truth.abs(), "{late} {name} {estimate:?}");
         }
         let warned = found.findings.iter().filter(|f| f.severity() != Severity::Info);
         let codes: Vec<&str> = warned.map(Finding::code).collect();

@@ -6,7 +6,7 @@ use std::f64::consts::PI;
 
 use lissom::beam::{Base, DistributedBeam, Payload, Piece, RootClass, Zeros, class, zero_shift};
 use lissom_testmodels::limit::{
-    Figures, LumpedArm, Masses, cantilever, hub_and_tip_mass, order, stepped,
+    LumpedArm, Masses, Properties, cantilever, hub_and_tip_mass, order, stepped,
 };
 use num_complex::Complex64;
 use proptest::prelude::*;
@@ -20,11 +20,11 @@ const CONSTANT: f64 = 3e-3;
 /// Zeros that are the same zero, relatively.
 const SAME: f64 = 1e-9;
 
-/// Errors of each figure over [`COUNTS`].
+/// Errors of each estimate over [`COUNTS`].
 fn errors(beam: &DistributedBeam, masses: Masses) -> Vec<Vec<f64>> {
-    let exact = Figures::of_distributed(beam);
+    let exact = Properties::of_distributed(beam);
     let by_count = COUNTS.map(|n| {
-        Figures::of_lumped(&LumpedArm::new(beam, n, masses).unwrap(), &exact).errors(&exact)
+        Properties::of_lumped(&LumpedArm::new(beam, n, masses).unwrap(), &exact).errors(&exact)
     });
     (0..by_count[0].len()).map(|row| by_count.iter().map(|e| e[row]).collect()).collect()
 }
@@ -34,7 +34,7 @@ fn half_masses_at_both_ends_give_order_two() {
     for beam in [cantilever(), hub_and_tip_mass(), stepped()] {
         for (row, errors) in errors(&beam, Masses::BothEnds).iter().enumerate() {
             let order = order(&COUNTS, errors);
-            assert!((order - 2.0).abs() < ORDER, "figure {row}: {order}");
+            assert!((order - 2.0).abs() < ORDER, "estimate {row}: {order}");
         }
     }
 }
@@ -45,7 +45,7 @@ fn half_masses_at_both_ends_give_order_two() {
 fn the_error_is_that_of_the_trapezoid_rule() {
     let found = errors(&cantilever(), Masses::BothEnds);
     let at_last = |row: usize| found[row][2] * (COUNTS[2] as f64).powi(2);
-    let exact = Figures::of_distributed(&cantilever());
+    let exact = Properties::of_distributed(&cantilever());
     for k in 0..3 {
         let l = exact.frequencies_rad_s[k].sqrt();
         let (ch, sh, c, s) = (l.cosh(), l.sinh(), l.cos(), l.sin());
@@ -67,7 +67,7 @@ fn whole_masses_at_outer_ends_give_order_one_but_for_zeros() {
     for (row, errors) in found.iter().enumerate() {
         let expected = if (3..6).contains(&row) { 2.0 } else { 1.0 };
         let order = order(&COUNTS, errors);
-        assert!((order - expected).abs() < 0.03, "figure {row}: {order}");
+        assert!((order - expected).abs() < 0.03, "estimate {row}: {order}");
     }
     for frequency in &found[..3] {
         assert!((frequency[2] * COUNTS[2] as f64 + 1.0).abs() < 0.01);

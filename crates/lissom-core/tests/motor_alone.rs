@@ -52,7 +52,7 @@ fn found(rig: &Rig, runs: &[Run]) -> Identified {
     identify(&alone(rig, runs), &Options::default(), |_| ()).unwrap()
 }
 
-/// Within some deviations, and within a share of the truth.
+/// Within some standard errors, and within a share of the truth.
 fn is(name: &str, found: Option<Estimate>, truth: f64, share: f64) {
     let found = found.unwrap();
     let off = found.value - truth;

@@ -62,7 +62,7 @@ fn predicts_others(oe: &OutputError, spans: &[Span], built: impl Fn(&[Span]) -> 
         let response = oe.loaded_tip_response((tip, added), tip, &omega).unwrap();
         for (w, r) in omega.iter().zip(&response) {
             let truth = built.tip_response(tip, *w);
-            // What damping couples the new modes by is left out, and in no deviation.
+            // What damping couples the new modes by is left out, and in no standard error.
             let left_out = 2e-4 * truth.norm();
             assert!((r.value - truth).norm() < 5.0 * r.std + left_out, "{w}: {r:?} {truth}");
         }

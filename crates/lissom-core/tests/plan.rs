@@ -8,7 +8,9 @@ use lissom::beam::{LumpedBeam, Span};
 use lissom::drive::{Coulomb, Motor};
 use lissom::identify::{Estimate, Identified, Options, identify};
 use lissom::information::expected_covariance;
-use lissom::plan::{Expected, Figure, Kinds, Plan, PlannedFigure, PlannedMotion, Wishes, plan};
+use lissom::plan::{
+    ArmParameter, Expected, Kinds, Plan, PlannedMotion, PlannedParameter, Wishes, plan,
+};
 use lissom::record::{
     Axis, Campaign, Channels, Command, CommandQuantity, Hold, Run, Tip, TipQuantity,
 };
@@ -97,27 +99,27 @@ fn made(rig: &Rig, plan: &Plan, seed: u64, tips: bool) -> Campaign {
     Campaign::new(channels, runs).unwrap()
 }
 
-fn found(id: &Identified, figure: Figure) -> Option<Estimate> {
+fn found(id: &Identified, parameter: ArmParameter) -> Option<Estimate> {
     let mode = |j: usize| id.beam.modes.get(j);
-    match figure {
-        Figure::Coulomb => id.friction.coulomb,
-        Figure::Viscous => id.friction.viscous,
-        Figure::Inertia => id.inertia,
-        Figure::Coupling => id.beam.coupling,
-        Figure::Frequency(j) => mode(j).map(|m| m.natural_frequency_rad_s),
-        Figure::Offset => id.friction.offset,
-        Figure::Damping(j) => {
+    match parameter {
+        ArmParameter::Coulomb => id.friction.coulomb,
+        ArmParameter::Viscous => id.friction.viscous,
+        ArmParameter::Inertia => id.inertia,
+        ArmParameter::Coupling => id.beam.coupling,
+        ArmParameter::Frequency(j) => mode(j).map(|m| m.natural_frequency_rad_s),
+        ArmParameter::Offset => id.friction.offset,
+        ArmParameter::Damping(j) => {
             mode(j).map(|m| m.damping_ratio.scaled(2.0 * m.natural_frequency_rad_s.value))
         }
     }
 }
 
-/// What a plan was worth: of each figure, over some seeds.
+/// What a plan was worth: of each parameter, over some seeds.
 struct Worth {
     expected: Expected,
-    /// Root mean square of the error over the deviation expected.
+    /// Root mean square of the error over the standard error expected.
     error: f64,
-    /// Mean of the deviation stated over the one expected.
+    /// Mean of the standard error stated over the one expected.
     stated: f64,
 }
 
@@ -134,9 +136,10 @@ fn worth(known: &Rig, truth: &Rig, kinds: Kinds, tips: bool, seeds: u64) -> (Pla
         let campaign = made(truth, &made_plan, seed, tips);
         let id = identify(&campaign, &Options::default(), |_| ()).unwrap();
         for w in &mut worth {
-            let PlannedFigure::Arm(figure) = w.expected.figure else { panic!("no load") };
-            let found = found(&id, figure).unwrap_or_else(|| panic!("{} refused", figure.name()));
-            let value = target(figure);
+            let PlannedParameter::Arm(parameter) = w.expected.parameter else { panic!("no load") };
+            let found =
+                found(&id, parameter).unwrap_or_else(|| panic!("{} refused", parameter.name()));
+            let value = target(parameter);
             w.error += ((found.value / value - 1.0) / w.expected.std).powi(2) / seeds as f64;
             w.stated += found.std / value / w.expected.std / seeds as f64;
         }
@@ -147,19 +150,19 @@ fn worth(known: &Rig, truth: &Rig, kinds: Kinds, tips: bool, seeds: u64) -> (Pla
     (made_plan, worth)
 }
 
-/// The figures of an arm whose modes are all followed.
-fn plan_values(rig: &Rig) -> impl Fn(Figure) -> f64 {
+/// The parameters of an arm whose modes are all followed.
+fn plan_values(rig: &Rig) -> impl Fn(ArmParameter) -> f64 {
     let arm = rig.arm.clone();
     let modes = arm.beam().natural_frequencies_rad_s();
-    move |figure| match figure {
-        Figure::Offset => 0.5 * (arm.coulomb.forward() - arm.coulomb.backward()),
-        Figure::Coulomb => 0.5 * (arm.coulomb.forward() + arm.coulomb.backward()),
-        Figure::Viscous => arm.motor.viscous_nm_s_per_rad(),
-        Figure::Inertia => arm.motor.inertia_kg_m2(),
-        Figure::Coupling => arm.dynamics().coupling_motor,
-        Figure::Frequency(j) => modes[j],
+    move |parameter| match parameter {
+        ArmParameter::Offset => 0.5 * (arm.coulomb.forward() - arm.coulomb.backward()),
+        ArmParameter::Coulomb => 0.5 * (arm.coulomb.forward() + arm.coulomb.backward()),
+        ArmParameter::Viscous => arm.motor.viscous_nm_s_per_rad(),
+        ArmParameter::Inertia => arm.motor.inertia_kg_m2(),
+        ArmParameter::Coupling => arm.dynamics().coupling_motor,
+        ArmParameter::Frequency(j) => modes[j],
         // All masses of these arms are damped alike, in proportion.
-        Figure::Damping(_) => arm.dynamics().absolute.as_ref().map_or(0.0, |g| -g[(0, 0)]),
+        ArmParameter::Damping(_) => arm.dynamics().absolute.as_ref().map_or(0.0, |g| -g[(0, 0)]),
     }
 }
 
@@ -173,7 +176,7 @@ fn arms(noise: f64) -> [(&'static str, Rig, bool); 3] {
 
 /// Noise of the sensors in steps.
 const NOISE: f64 = 0.5;
-/// Root mean square of a handful of errors over their deviation, at most: it is within 1.55 of one in
+/// Root mean square of a handful of errors over their standard error, at most: it is within 1.55 of one in
 /// 97.5 % of all sixes; intervals of the output error are up to 1.3 too short or long besides.
 const ERROR_MOST: f64 = 2.2;
 
@@ -181,7 +184,7 @@ fn holds(known: &Rig, truth: &Rig, kinds: Kinds, tips: bool) -> Vec<Worth> {
     let (plan, worth) = worth(known, truth, kinds, tips, 6);
     assert!(plan.runs.len() <= 4 && plan.time_s < 400.0, "{plan:?}");
     for w in &worth {
-        let name = w.expected.figure.name();
+        let name = w.expected.parameter.name();
         assert!(w.expected.std <= w.expected.wanted, "{name} is not reached");
         assert!(w.error < ERROR_MOST, "{name}: {:.2} of the expected", w.error);
         // What was wished for is what comes out.
@@ -190,7 +193,7 @@ fn holds(known: &Rig, truth: &Rig, kinds: Kinds, tips: bool) -> Vec<Worth> {
     worth
 }
 
-/// Errors and stated deviations of all figures together are those that were expected.
+/// Errors and stated standard errors of all parameters together are those that were expected.
 fn agrees(worth: &[Worth]) {
     let n = worth.len() as f64;
     let error = (worth.iter().map(|w| w.error * w.error).sum::<f64>() / n).sqrt();
@@ -198,11 +201,14 @@ fn agrees(worth: &[Worth]) {
     // Damping and viscous friction are stated for the one kind of damping that was found, and expected
     // with both.
     let apart = |w: &&Worth| {
-        let figure = w.expected.figure;
-        !matches!(figure, PlannedFigure::Arm(Figure::Damping(_) | Figure::Viscous))
+        let parameter = w.expected.parameter;
+        !matches!(
+            parameter,
+            PlannedParameter::Arm(ArmParameter::Damping(_) | ArmParameter::Viscous)
+        )
     };
     for w in worth.iter().filter(apart) {
-        assert!((0.8..1.6).contains(&w.stated), "{}: {}", w.expected.figure.name(), w.stated);
+        assert!((0.8..1.6).contains(&w.stated), "{}: {}", w.expected.parameter.name(), w.stated);
     }
 }
 
@@ -242,7 +248,7 @@ fn rough_numbers_will_do() {
     known.arm = Arm::new(LumpedBeam::new(&[span]).unwrap(), motor.unwrap(), coulomb).unwrap();
     let (plan, worth) = worth(&known, &truth, Kinds::Any, true, 4);
     for w in &worth {
-        let (name, error) = (w.expected.figure.name(), w.error * w.expected.std);
+        let (name, error) = (w.expected.parameter.name(), w.error * w.expected.std);
         assert!(error < w.expected.wanted, "{name}: {error}");
     }
     let campaign = made(&truth, &plan, 9, true);
@@ -363,7 +369,7 @@ fn tables() {
                     );
                 }
                 for w in worth {
-                    let (name, got) = (w.expected.figure.name(), 100.0 * w.expected.std);
+                    let (name, got) = (w.expected.parameter.name(), 100.0 * w.expected.std);
                     println!("| {name} | {got:.4} % | {:.2} | {:.2} |", w.error, w.stated);
                 }
             }

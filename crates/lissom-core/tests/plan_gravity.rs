@@ -7,7 +7,7 @@ use lissom::drive::{Coulomb, Motor};
 use lissom::identify::{Effort, Options, identify};
 use lissom::load::GravityLoad;
 use lissom::plan::{
-    Figure, Kinds, Plan, PlanError, PlanNote, PlannedFigure, PlannedUnknown, Wishes, plan,
+    ArmParameter, Kinds, Plan, PlanError, PlanNote, PlannedParameter, PlannedUnknown, Wishes, plan,
 };
 use lissom::record::Campaign;
 use lissom::rig::{Amplifier, Instruments, Pd, Quantiser, Rig, Sensor};
@@ -39,8 +39,8 @@ fn planned(rig: &Rig) -> Plan {
     plan(rig, &Wishes { kinds: Kinds::Any, ..Wishes::default() }, |_, _| ()).unwrap()
 }
 
-fn std(plan: &Plan, figure: PlannedFigure) -> f64 {
-    plan.expected.iter().find(|e| e.figure == figure).unwrap().std
+fn std(plan: &Plan, parameter: PlannedParameter) -> f64 {
+    plan.expected.iter().find(|e| e.parameter == parameter).unwrap().std
 }
 
 #[test]
@@ -55,11 +55,11 @@ fn a_load_is_planned_with_the_rest() {
     assert!(made.runs.iter().all(|run| run.peak_current_a <= reserve), "{:?}", made.runs);
     // Without a load there is none to be found, and every wish takes less.
     let bare = planned(&loaded(0.0));
-    assert!(bare.expected.iter().all(|e| e.figure != PlannedFigure::Gravity));
+    assert!(bare.expected.iter().all(|e| e.parameter != PlannedParameter::Gravity));
     assert!(!bare.notes.contains(&PlanNote::GravityByRegression));
 }
 
-/// Plans, makes the runs, identifies them by the regression, of which the plan speaks: errors and stated standard errors of every figure are about those expected.
+/// Plans, makes the runs, identifies them by the regression, of which the plan speaks: errors and stated standard errors of every parameter are about those expected.
 fn is_worth_it(mgl: f64, counts: u32, kinds: Kinds) {
     let mut rig = loaded(mgl);
     rig.instruments.motor = Sensor::from(Quantiser::encoder(counts).unwrap());
@@ -72,21 +72,21 @@ fn is_worth_it(mgl: f64, counts: u32, kinds: Kinds) {
     let regression = Options { effort: Effort::Quick, ..Options::default() };
     let id = identify(&campaign.with_gravity().unwrap(), &regression, |_| ()).unwrap();
     let arm = &rig.arm;
-    for (figure, found, truth) in [
-        (PlannedFigure::Arm(Figure::Inertia), id.inertia, arm.motor.inertia_kg_m2()),
-        (PlannedFigure::Arm(Figure::Coulomb), id.friction.coulomb, arm.coulomb.forward()),
+    for (parameter, found, truth) in [
+        (PlannedParameter::Arm(ArmParameter::Inertia), id.inertia, arm.motor.inertia_kg_m2()),
+        (PlannedParameter::Arm(ArmParameter::Coulomb), id.friction.coulomb, arm.coulomb.forward()),
         (
-            PlannedFigure::Arm(Figure::Viscous),
+            PlannedParameter::Arm(ArmParameter::Viscous),
             id.friction.viscous,
             arm.motor.viscous_nm_s_per_rad(),
         ),
-        (PlannedFigure::Gravity, id.gravity.map(|g| g.amplitude()), mgl),
+        (PlannedParameter::Gravity, id.gravity.map(|g| g.amplitude()), mgl),
     ] {
-        let (found, expected) = (found.unwrap(), std(&plan, figure));
+        let (found, expected) = (found.unwrap(), std(&plan, parameter));
         let stated = found.std / truth / expected;
         let error = (found.value / truth - 1.0).abs() / expected;
         let off = (1.0 / APART..APART).contains(&stated);
-        assert!(off && error < ERROR_MOST, "{mgl} {counts} {figure:?}: {stated} {error}");
+        assert!(off && error < ERROR_MOST, "{mgl} {counts} {parameter:?}: {stated} {error}");
     }
 }
 

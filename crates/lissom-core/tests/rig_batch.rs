@@ -78,7 +78,7 @@ fn an_experiment_is_what_its_loop_says() {
     }
 }
 
-/// (27) takes friction for a square wave: without sticking it is, and the figure exact.
+/// (27) takes friction for a square wave: without sticking it is, and the estimate exact.
 #[test]
 fn friction_is_found_where_little_sticks() {
     let arm = report_arm();

@@ -1,9 +1,9 @@
-//! Output errors that begin at an arm which is wrong by factors come to the figures that one from the true arm comes to.
+//! Output errors that begin at an arm which is wrong by factors come to the estimates that one from the true arm comes to.
 //!
 //! J, V and CF wrong by a factor of three in any direction cost nothing. Where all three are wrong so, modes may be too, their
 //! stiffness by three. Measured: one mode's frequency by 0.7 to 3 where the rest is too large, by a third to 0.7 where it is too
 //! small; both of two modes' by 0.7 to 2 where the rest is too large, by 1.5 to 2 where it is too small; a few starts each. Beyond that
-//! (a frequency of 0.5 or a third with the rest too large, 3 of two modes) the search ends elsewhere, 25 to 400 deviations off.
+//! (a frequency of 0.5 or a third with the rest too large, 3 of two modes) the search ends elsewhere, 25 to 400 standard errors off.
 #![expect(clippy::unwrap_used, reason = "tests")]
 
 use lissom::arm::Arm;
@@ -16,7 +16,7 @@ use lissom::rig::{Experiment, Instruments, Noise, Pd, Quantiser, Rig, Sensor, Se
 
 /// Noise of the sensors in steps.
 const NOISE_STEPS: f64 = 0.5;
-/// Furthest that figures are from each other, in deviations.
+/// Furthest that estimates are from each other, in deviations.
 const DEVIATIONS: f64 = 1.0;
 
 /// The report's arm: one mode at 6.6 rad/s.
@@ -62,7 +62,7 @@ fn campaign(rig: &Rig, sines_rad_s: &[f64]) -> Campaign {
 /// Times J, V and CF; times every mode's frequency and stiffness.
 type Factors = ([f64; 3], [f64; 2]);
 
-/// The arm with its figures times these.
+/// The arm with its estimates times these.
 fn wrong(arm: &ModalArm, ([inertia, viscous, coulomb], [omega, stiffness]): Factors) -> ModalArm {
     let mut wrong = arm.clone();
     wrong.inertia_kg_m2 *= inertia;

@@ -5,7 +5,7 @@ use lissom::arm::Arm;
 use lissom::beam::{LumpedBeam, Span};
 use lissom::drive::{Coulomb, Motor};
 use lissom::identify::{ArmSource, Identified, Options, RunToAdd, Separability, identify};
-use lissom::information::Figure;
+use lissom::information::ArmParameter;
 use lissom::record::{Axis, Campaign, Run, TimeBase};
 use lissom::rig::{Amplifier, Experiment, Instruments, Noise, Pd, Quantiser, Rig, Sensor};
 
@@ -56,8 +56,8 @@ fn verdict(id: &Identified) -> &Separability {
     id.separability.as_ref().unwrap()
 }
 
-fn std(verdict: &Separability, figure: Figure) -> f64 {
-    verdict.figures.iter().find(|f| f.figure == figure).unwrap().std
+fn std(verdict: &Separability, parameter: ArmParameter) -> f64 {
+    verdict.parameters.iter().find(|f| f.parameter == parameter).unwrap().std
 }
 
 fn made(rig: &Rig, add: &RunToAdd) -> Run {
@@ -98,16 +98,21 @@ fn the_run_to_add_tells_what_one_sine_does_not() {
     let before = one(&runs);
     let before = verdict(&before);
     assert_eq!(before.source, ArmSource::OutputError);
-    let worst: Vec<Figure> = before.directions[0].parts.iter().map(|p| p.figure).collect();
-    assert_eq!(worst[..2], [Figure::Viscous, Figure::Coulomb], "{:?}", before.directions[0]);
+    let worst: Vec<ArmParameter> = before.directions[0].parts.iter().map(|p| p.parameter).collect();
+    assert_eq!(
+        worst[..2],
+        [ArmParameter::Viscous, ArmParameter::Coulomb],
+        "{:?}",
+        before.directions[0]
+    );
     let parts = &before.directions[0].parts;
     assert!(parts[0].weight * parts[1].weight < 0.0);
     let add = before.run_to_add.unwrap();
-    assert_eq!(add.figure, Figure::Viscous);
-    assert!((add.std_now / std(before, Figure::Viscous) - 1.0).abs() < 1e-9);
+    assert_eq!(add.parameter, ArmParameter::Viscous);
+    assert!((add.std_now / std(before, ArmParameter::Viscous) - 1.0).abs() < 1e-9);
     runs.push(made(&rig, &add));
     let after = one(&runs);
-    let achieved = std(verdict(&after), Figure::Viscous);
+    let achieved = std(verdict(&after), ArmParameter::Viscous);
     println!("{:.3e} promised {:.3e} achieved {achieved:.3e}", add.std_now, add.std_then);
     assert!(add.std_now - achieved > 0.5 * (add.std_now - add.std_then));
 }
@@ -170,11 +175,13 @@ fn what_one_direction_does_not_tell_is_named() {
     assert!(verdict.condition.is_infinite() && verdict.run_to_add.is_none());
     let worst = &verdict.directions[0];
     assert!(worst.std.is_infinite());
-    let parts: Vec<Figure> = worst.parts.iter().map(|p| p.figure).collect();
+    let parts: Vec<ArmParameter> = worst.parts.iter().map(|p| p.parameter).collect();
     assert!(
-        parts.len() == 2 && parts.contains(&Figure::Coulomb) && parts.contains(&Figure::Offset)
+        parts.len() == 2
+            && parts.contains(&ArmParameter::Coulomb)
+            && parts.contains(&ArmParameter::Offset)
     );
-    // Inertia is told all the same, with the deviation of the table.
+    // Inertia is told all the same, with the standard error of the table.
     let stated = id.inertia.unwrap();
-    assert!((std(verdict, Figure::Inertia) / (stated.std / stated.value) - 1.0).abs() < 1e-9);
+    assert!((std(verdict, ArmParameter::Inertia) / (stated.std / stated.value) - 1.0).abs() < 1e-9);
 }

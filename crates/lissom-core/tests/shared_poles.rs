@@ -51,7 +51,7 @@ impl Truth {
         let mut point = |output: usize, w: f64| {
             let value = self.response(output, w);
             let std = noise * value.norm();
-            // √E|Δ|² is √2 times the deviation of either part.
+            // √E|Δ|² is √2 times the standard error of either part.
             let error = Complex64::new(normal(), normal()) * (std * FRAC_1_SQRT_2);
             Response { value: value + error, std }
         };
@@ -130,7 +130,7 @@ fn the_order_is_that_of_the_data() {
     assert!(chosen.iter().all(|(there, found)| there == found), "{chosen:?}");
 }
 
-/// 95 % intervals of 60 fits, six figures each: 360 of which 342 are expected to hold, give or take 4.
+/// 95 % intervals of 60 fits, six estimates each: 360 of which 342 are expected to hold, give or take 4.
 #[test]
 fn intervals_hold() {
     let omega = grid(120);
@@ -141,12 +141,12 @@ fn intervals_hold() {
         let outputs = truth.measured(&omega, 0.03, &mut random);
         let fit = fit_shared_poles(&omega, &outputs, 2, Damping::Small).unwrap();
         for k in 0..2 {
-            let figures = [
+            let estimates = [
                 (fit.natural_frequency_rad_s(k), truth.poles[k].omega_rad_s),
                 (fit.damping_ratio(k), truth.poles[k].damping_ratio),
                 (fit.static_gain(1, k), truth.gains[1][k]),
             ];
-            let holds = figures.iter().filter(|(f, t)| (f.value - t).abs() < 1.96 * f.std);
+            let holds = estimates.iter().filter(|(f, t)| (f.value - t).abs() < 1.96 * f.std);
             held += holds.count();
         }
     }

@@ -3,7 +3,7 @@
 #![expect(clippy::unwrap_used, reason = "a test fails by panicking")]
 
 use lissom::beam::{DistributedBeam, Piece, TruncatedBeam};
-use lissom::identify::{Deviations, EquivalentData, MotorData, Response, equivalent};
+use lissom::identify::{EquivalentData, MotorData, Response, StdSource, equivalent};
 use lissom::record::{Axis, CommandQuantity};
 use lissom_io::{EquivalentFile, UnitNames};
 use lissom_testmodels::SchemaCheck;
@@ -22,7 +22,7 @@ fn beam(points_m: &[f64]) -> TruncatedBeam {
 
 /// Responses at the first two of three points up to a frequency short of the third mode, or so far that all
 /// three are seen.
-fn data(points: usize, high: f64, motor: bool, deviations: Deviations) -> EquivalentData {
+fn data(points: usize, high: f64, motor: bool, std_source: StdSource) -> EquivalentData {
     let beam = beam(&[0.15, 0.3, 0.45]);
     let low = 0.5 * beam.natural_frequencies_rad_s[0];
     let omega: Vec<f64> = (0..300).map(|i| low * (high / low).powf(f64::from(i) / 299.0)).collect();
@@ -43,7 +43,7 @@ fn data(points: usize, high: f64, motor: bool, deviations: Deviations) -> Equiva
             response: omega.iter().map(|w| torque(*w)).collect(),
             torque_per_command: 0.25,
         }),
-        deviations,
+        std_source,
     }
 }
 
@@ -55,9 +55,9 @@ fn an_equivalent_arm_and_its_schema_name_the_same_keys() {
         "equivalent",
     );
     let campaigns = [
-        data(2, 0.8 * third, true, Deviations::Measured),
-        data(3, 2.0 * third, true, Deviations::Floored),
-        data(3, 2.0 * third, false, Deviations::FromResidual),
+        data(2, 0.8 * third, true, StdSource::Measured),
+        data(3, 2.0 * third, true, StdSource::Floored),
+        data(3, 2.0 * third, false, StdSource::FromResidual),
     ];
     for (i, data) in campaigns.iter().enumerate() {
         let found = equivalent(data, None).unwrap();

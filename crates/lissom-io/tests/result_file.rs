@@ -8,7 +8,7 @@ use lissom::identify::{
     LineShape, NearRestEstimate, Options, Prepared, RippleEstimate, RunToAdd, SteadyPoint,
     geometry_check, identify, motor_regression,
 };
-use lissom::information::Figure;
+use lissom::information::ArmParameter;
 use lissom::plan::PlannedMotion;
 use lissom::record::{
     Axis, Campaign, Channels, Command, CommandQuantity, Hold, Run, TimeBase, Tip, TipQuantity,
@@ -47,7 +47,7 @@ fn channels(axis: Axis, quantity: CommandQuantity, constant: Option<f64>) -> Cha
     Channels { axis, command, tips: vec![tip] }
 }
 
-/// Results of every axis and command, with every figure that may be absent.
+/// Results of every axis and command, with every estimate that may be absent.
 fn results() -> Vec<ResultFile> {
     let mut id = identify(&campaign(), &Options::default(), |_| ()).unwrap();
     let described =
@@ -71,29 +71,29 @@ fn results() -> Vec<ResultFile> {
 }
 
 fn with_directions(mut id: Identified) -> Identified {
-    let figure = Estimate { value: 1.0, std: 0.1 };
-    id.friction.viscous_by_direction = Some((figure, figure));
+    let estimate = Estimate { value: 1.0, std: 0.1 };
+    id.friction.viscous_by_direction = Some((estimate, estimate));
     let line = |shape| FrictionLine {
-        coulomb: figure,
-        viscous: figure,
+        coulomb: estimate,
+        viscous: estimate,
         correlation: -0.8,
         points: 3,
         speeds: 3,
         shape,
-        slowest: Some(figure),
+        slowest: Some(estimate),
     };
     id.constant_velocity = Some(ConstantVelocity {
-        coulomb: Some(figure),
-        offset: Some(figure),
-        viscous: Some(figure),
-        forward: Ok(line(LineShape::Concave { deviations: 4.0 })),
+        coulomb: Some(estimate),
+        offset: Some(estimate),
+        viscous: Some(estimate),
+        forward: Ok(line(LineShape::Concave { standard_errors: 4.0 })),
         backward: Ok(line(LineShape::Straight)),
         points: vec![SteadyPoint {
             run: 0,
             start_s: 0.0,
             end_s: 1.0,
-            velocity: figure,
-            command: figure,
+            velocity: estimate,
+            command: estimate,
         }],
     });
     if let Some(law) = &mut id.friction_law {
@@ -102,17 +102,17 @@ fn with_directions(mut id: Identified) -> Identified {
             LawTerm::AfterTravel { travel: 0.01 },
             LawTerm::Ripple { per_angle: 12.0 },
         ];
-        law.chosen.terms = terms.map(|term| (term, vec![figure])).to_vec();
+        law.chosen.terms = terms.map(|term| (term, vec![estimate])).to_vec();
         let tried = law.candidates[0];
         law.candidates = terms.map(|term| LawCandidate { term, ..tried }).to_vec();
     }
     let falloff = Falloff::Exponential;
-    id.friction.with_load = Some(figure);
+    id.friction.with_load = Some(estimate);
     id.friction.near_rest =
-        Some(NearRestEstimate { torque: figure, at_rest: figure, speed: figure, falloff });
-    id.friction.ripples = vec![RippleEstimate { torque: figure, per_angle: figure }];
+        Some(NearRestEstimate { torque: estimate, at_rest: estimate, speed: estimate, falloff });
+    id.friction.ripples = vec![RippleEstimate { torque: estimate, per_angle: estimate }];
     if let Some(found) = &mut id.arm {
-        found.coupling_alone_nm_per_rad = vec![figure.value];
+        found.coupling_alone_nm_per_rad = vec![estimate.value];
         found.arm.dry_terms = DryTerms {
             near_rest: Some(NearRest {
                 torque_nm: 0.1,
@@ -128,7 +128,7 @@ fn with_directions(mut id: Identified) -> Identified {
             motion: PlannedMotion::Sine { omega_rad_s: 2.0 },
             amplitude_rad: 0.3,
             record_s: 20.0,
-            figure: Figure::Viscous,
+            parameter: ArmParameter::Viscous,
             std_now: 0.1,
             std_then: 0.02,
         });
@@ -182,7 +182,7 @@ fn a_result_and_its_schema_name_the_same_keys() {
     // What may be null is not: its keys were looked at too.
     check.holds(&[
         "verdict.directions[].parts[].share_of_variance",
-        "verdict.runs[].figures[].std_growth_without",
+        "verdict.runs[].estimates[].std_growth_without",
         "verdict.run_to_add.record_s",
         "arm.modes[].damping_within_per_s",
         "arm.tips[].shape",
@@ -195,7 +195,7 @@ fn a_result_and_its_schema_name_the_same_keys() {
         "friction.ripples",
         "arm.near_rest",
         "arm.ripples",
-        "methods.constant_velocity.lines[].deviations",
+        "methods.constant_velocity.lines[].standard_errors",
         "methods.constant_velocity.points[].start_s",
         "models.from",
         "models.motor.den",

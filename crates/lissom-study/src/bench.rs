@@ -60,8 +60,8 @@ impl Bench {
         let peak_nm = linear_nm / (1.0 - stratum.coulomb_share);
         let coulomb_nm = stratum.coulomb_share * peak_nm;
         let speed = RATED * first * rated_rad;
-        let figures = (coulomb_nm, motor.viscous_nm_s_per_rad(), motor.inertia_kg_m2());
-        let (coulomb, friction) = joint(law, draw, figures, speed)?;
+        let estimates = (coulomb_nm, motor.viscous_nm_s_per_rad(), motor.inertia_kg_m2());
+        let (coulomb, friction) = joint(law, draw, estimates, speed)?;
         let arm = Arm::new(beam, motor, coulomb)?;
         let most_rad = draw.uniform(MOST_RAD.0, MOST_RAD.1);
         let task = Task {

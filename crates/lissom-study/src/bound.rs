@@ -7,8 +7,8 @@ use lissom::replay::{
 use nalgebra::DMatrix;
 
 use crate::campaign::Campaign;
-use crate::figure::Figure;
 use crate::law::Law;
+use crate::scored_parameter::ScoredParameter;
 
 /// Step of the finite differences of a derived parameter, relative to the bound of a parameter.
 const DIFFERENCE: f64 = 1e-3;
@@ -28,7 +28,7 @@ const DIFFERENCE: f64 = 1e-3;
 #[derive(Debug, Clone, PartialEq)]
 pub struct Bound {
     /// The bounds of the parameters.
-    figures: Vec<(Figure, f64)>,
+    estimates: Vec<(ScoredParameter, f64)>,
     /// Residual of each channel divided by σ: 1 if the replay is the true motion.
     pub left: Vec<f64>,
 }
@@ -71,12 +71,12 @@ impl Bound {
             return None;
         }
         let left = (0..=tips).map(|c| left(&sums, c) / noise[c].sigma).collect();
-        Some(Self { figures: figures(&arm, &parameters, &covariance), left })
+        Some(Self { estimates: estimates(&arm, &parameters, &covariance), left })
     }
 
     /// The smallest standard error of a parameter, in its unit.
-    pub fn std(&self, figure: Figure) -> Option<f64> {
-        self.figures.iter().find(|(f, _)| *f == figure).map(|(_, std)| *std)
+    pub fn std(&self, parameter: ScoredParameter) -> Option<f64> {
+        self.estimates.iter().find(|(f, _)| *f == parameter).map(|(_, std)| *std)
     }
 }
 
@@ -104,24 +104,24 @@ fn left(sums: &[WindowSums], channel: usize) -> f64 {
     (squares / readings as f64).sqrt()
 }
 
-fn figures(
+fn estimates(
     arm: &ModalArm,
     parameters: &[Parameter],
     covariance: &DMatrix<f64>,
-) -> Vec<(Figure, f64)> {
+) -> Vec<(ScoredParameter, f64)> {
     let std =
         |of: &dyn Fn(&ModalArm) -> f64| propagated(arm, parameters, covariance, DIFFERENCE, of);
     let mut all = vec![
-        (Figure::Coulomb, std(&|a| a.coulomb_nm)),
-        (Figure::Forward, std(&|a| a.coulomb_nm + Parameter::Offset.of(a))),
-        (Figure::Backward, std(&|a| a.coulomb_nm - Parameter::Offset.of(a))),
-        (Figure::Inertia, std(&|a| a.inertia_kg_m2)),
-        (Figure::Coupling, std(&ModalArm::coupling_nm_per_rad)),
-        (Figure::Viscous, std(&|a| Parameter::Viscous.of(a))),
+        (ScoredParameter::Coulomb, std(&|a| a.coulomb_nm)),
+        (ScoredParameter::Forward, std(&|a| a.coulomb_nm + Parameter::Offset.of(a))),
+        (ScoredParameter::Backward, std(&|a| a.coulomb_nm - Parameter::Offset.of(a))),
+        (ScoredParameter::Inertia, std(&|a| a.inertia_kg_m2)),
+        (ScoredParameter::Coupling, std(&ModalArm::coupling_nm_per_rad)),
+        (ScoredParameter::Viscous, std(&|a| Parameter::Viscous.of(a))),
     ];
     for j in 0..arm.modes.len() {
-        all.push((Figure::Frequency(j), std(&|a| a.clamped_modes()[j].0)));
-        all.push((Figure::Damping(j), std(&|a| a.clamped_modes()[j].1)));
+        all.push((ScoredParameter::Frequency(j), std(&|a| a.clamped_modes()[j].0)));
+        all.push((ScoredParameter::Damping(j), std(&|a| a.clamped_modes()[j].1)));
     }
     all
 }
@@ -212,15 +212,15 @@ mod tests {
         let jacobian = DMatrix::from_columns(&columns);
         let covariance = inverse(&(jacobian.transpose() * &jacobian));
         let bound = Bound::of(&one).unwrap();
-        for (at, figure) in [
-            (0, Figure::Inertia),
-            (1, Figure::Viscous),
-            (2, Figure::Coulomb),
-            (4, Figure::Frequency(0)),
-            (5, Figure::Coupling),
+        for (at, parameter) in [
+            (0, ScoredParameter::Inertia),
+            (1, ScoredParameter::Viscous),
+            (2, ScoredParameter::Coulomb),
+            (4, ScoredParameter::Frequency(0)),
+            (5, ScoredParameter::Coupling),
         ] {
-            let ratio = bound.std(figure).unwrap() / covariance[(at, at)].sqrt();
-            assert!((ratio - 1.0).abs() < 0.01, "{figure}: {ratio}");
+            let ratio = bound.std(parameter).unwrap() / covariance[(at, at)].sqrt();
+            assert!((ratio - 1.0).abs() < 0.01, "{parameter}: {ratio}");
         }
     }
 }

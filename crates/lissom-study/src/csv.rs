@@ -1,8 +1,8 @@
 //! The results as comma separated text, one row for each campaign.
 
-use crate::figure::Figure;
 use crate::law::Law;
-use crate::score::FigureScore;
+use crate::score::EstimateScore;
+use crate::scored_parameter::ScoredParameter;
 use crate::study::{Scored, Study};
 
 /// Columns before the parameters.
@@ -10,19 +10,19 @@ const HEAD: &str = "law,seed,index,masses,runs_kind,runs,motor_bits,tip_bits,sam
                     damping_ratio,coulomb_share,stuck_share,samples,identification_s,findings";
 
 /// Every parameter that a campaign may have, with the name of its columns.
-const FIGURES: [(&str, Figure); 12] = [
-    ("coulomb_nm", Figure::Coulomb),
-    ("coulomb_forward_nm", Figure::Forward),
-    ("coulomb_backward_nm", Figure::Backward),
-    ("inertia_kg_m2", Figure::Inertia),
-    ("coupling_nm_per_rad", Figure::Coupling),
-    ("viscous_nm_s_per_rad", Figure::Viscous),
-    ("frequency_1_rad_s", Figure::Frequency(0)),
-    ("frequency_2_rad_s", Figure::Frequency(1)),
-    ("frequency_3_rad_s", Figure::Frequency(2)),
-    ("damping_ratio_1", Figure::Damping(0)),
-    ("damping_ratio_2", Figure::Damping(1)),
-    ("damping_ratio_3", Figure::Damping(2)),
+const FIGURES: [(&str, ScoredParameter); 12] = [
+    ("coulomb_nm", ScoredParameter::Coulomb),
+    ("coulomb_forward_nm", ScoredParameter::Forward),
+    ("coulomb_backward_nm", ScoredParameter::Backward),
+    ("inertia_kg_m2", ScoredParameter::Inertia),
+    ("coupling_nm_per_rad", ScoredParameter::Coupling),
+    ("viscous_nm_s_per_rad", ScoredParameter::Viscous),
+    ("frequency_1_rad_s", ScoredParameter::Frequency(0)),
+    ("frequency_2_rad_s", ScoredParameter::Frequency(1)),
+    ("frequency_3_rad_s", ScoredParameter::Frequency(2)),
+    ("damping_ratio_1", ScoredParameter::Damping(0)),
+    ("damping_ratio_2", ScoredParameter::Damping(1)),
+    ("damping_ratio_3", ScoredParameter::Damping(2)),
 ];
 
 /// The campaigns of all studies as comma separated text, with a header; refused estimates are empty.
@@ -65,8 +65,8 @@ fn row(study: &Study, scored: &Scored) -> String {
         format!("{:.4}", scored.identification.as_secs_f64()),
         codes.join(" "),
     ];
-    for (_, figure) in FIGURES {
-        cells.extend(figure_cells(score.and_then(|s| s.of(figure))));
+    for (_, parameter) in FIGURES {
+        cells.extend(figure_cells(score.and_then(|s| s.of(parameter))));
     }
     cells.join(",")
 }
@@ -79,8 +79,8 @@ fn law_cell(law: Law) -> String {
     }
 }
 
-fn figure_cells(figure: Option<&FigureScore>) -> [String; 5] {
-    let Some(f) = figure else { return Default::default() };
+fn figure_cells(parameter: Option<&EstimateScore>) -> [String; 5] {
+    let Some(f) = parameter else { return Default::default() };
     let estimate = |of: fn(&lissom::identify::Estimate) -> f64| {
         f.estimate.as_ref().map_or_else(String::new, |e| of(e).to_string())
     };

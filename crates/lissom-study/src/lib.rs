@@ -14,13 +14,13 @@ mod csv;
 mod draw;
 mod drives;
 mod external;
-mod figure;
 mod kept;
 mod law;
 mod plan;
 mod position_loop;
 mod rejected;
 mod score;
+mod scored_parameter;
 mod single;
 mod statistics;
 mod stratum;
@@ -39,11 +39,11 @@ pub use drives::{
     describe_drive, drive_report, drive_rows, drive_study, score_drive, write_logs,
 };
 pub use external::{ExternalError, export, simulated};
-pub use figure::Figure;
 pub use kept::{Kept, KeptError};
 pub use law::Law;
 pub use rejected::{Dropped, Rejected};
-pub use score::{FigureScore, FindingScore, PointScore, Score, score};
+pub use score::{EstimateScore, FindingScore, PointScore, Score, score};
+pub use scored_parameter::ScoredParameter;
 pub use single::describe;
 pub use statistics::{Share, median, quantile};
 pub use stratum::{Kind, Stratum};

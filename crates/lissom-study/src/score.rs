@@ -9,7 +9,7 @@ use num_complex::Complex64;
 use serde::{Deserialize, Serialize};
 
 use crate::bound::Bound;
-use crate::figure::Figure;
+use crate::scored_parameter::ScoredParameter;
 use crate::statistics::NORMAL_95;
 use crate::truth::Truth;
 
@@ -22,9 +22,9 @@ pub(crate) const CIRCLE_95: f64 = 1.730_818_382_6;
 
 /// One parameter of one campaign.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-pub struct FigureScore {
+pub struct EstimateScore {
     /// The parameter.
-    pub figure: Figure,
+    pub parameter: ScoredParameter,
     /// Its true value.
     pub truth: f64,
     /// The estimate; `None`: refused.
@@ -36,14 +36,14 @@ pub struct FigureScore {
     pub bound: Option<f64>,
 }
 
-impl FigureScore {
+impl EstimateScore {
     /// Signed relative error.
     pub fn error(&self) -> Option<f64> {
         self.estimate.map(|e| e.value / self.truth - 1.0)
     }
 
     /// Signed error in standard errors; infinite if the standard error is zero.
-    pub fn deviations(&self) -> Option<f64> {
+    pub fn standard_errors(&self) -> Option<f64> {
         self.estimate.map(|e| (e.value - self.truth) / e.std)
     }
 
@@ -69,7 +69,7 @@ impl FigureScore {
     /// More than five standard errors off, without a warning.
     pub fn silently_wrong(&self) -> bool {
         // NaN counts as wrong, as a large error does.
-        !self.warned && self.deviations().is_some_and(|d| d.is_nan() || d.abs() > SILENT)
+        !self.warned && self.standard_errors().is_some_and(|d| d.is_nan() || d.abs() > SILENT)
     }
 
     /// Given without a warning.
@@ -92,7 +92,7 @@ pub struct PointScore {
     /// Error of the corrected response.
     pub corrected: Option<f64>,
     /// The same in standard errors.
-    pub deviations: Option<f64>,
+    pub standard_errors: Option<f64>,
     /// Whether it is vouched for: no finding speaks against it, and its 95 % interval is within 5 %.
     pub vouched: bool,
 }
@@ -100,13 +100,13 @@ pub struct PointScore {
 impl PointScore {
     /// Whether the 95 % circle around the corrected point contains the truth.
     pub fn covers(&self) -> Option<bool> {
-        self.deviations.map(|d| d <= CIRCLE_95)
+        self.standard_errors.map(|d| d <= CIRCLE_95)
     }
 
     /// Vouched for, and more than five standard errors off.
     pub fn silently_wrong(&self) -> bool {
         // NaN counts as wrong, as a large error does.
-        self.vouched && self.deviations.is_some_and(|d| d.is_nan() || d > SILENT)
+        self.vouched && self.standard_errors.is_some_and(|d| d.is_nan() || d > SILENT)
     }
 
     /// Whether the error of the corrected point is at least `times` smaller than that of (30); `None` without (30).
@@ -123,13 +123,13 @@ pub struct CurveScore {
     /// Relative error.
     pub error: f64,
     /// The same in standard errors.
-    pub deviations: f64,
+    pub standard_errors: f64,
 }
 
 impl CurveScore {
     /// Whether the 95 % band contains the true value.
     pub fn covers(&self) -> bool {
-        self.deviations.abs() <= NORMAL_95
+        self.standard_errors.abs() <= NORMAL_95
     }
 }
 
@@ -146,7 +146,7 @@ pub struct FindingScore {
 #[derive(Debug, Default, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Score {
     /// Parameters, two of each mode at the end.
-    pub figures: Vec<FigureScore>,
+    pub estimates: Vec<EstimateScore>,
     /// Points of the motor's response.
     pub points: Vec<PointScore>,
     /// Points of the friction curve.
@@ -159,15 +159,15 @@ pub struct Score {
 
 impl Score {
     /// The score of one parameter.
-    pub fn of(&self, figure: Figure) -> Option<&FigureScore> {
-        self.figures.iter().find(|f| f.figure == figure)
+    pub fn of(&self, parameter: ScoredParameter) -> Option<&EstimateScore> {
+        self.estimates.iter().find(|f| f.parameter == parameter)
     }
 
     /// Adds the bounds of the parameters.
     #[must_use]
     pub fn with_bound(mut self, bound: Option<&Bound>) -> Self {
-        for figure in &mut self.figures {
-            figure.bound = bound.and_then(|b| b.std(figure.figure));
+        for parameter in &mut self.estimates {
+            parameter.bound = bound.and_then(|b| b.std(parameter.parameter));
         }
         self
     }
@@ -182,33 +182,38 @@ impl Score {
 
 /// Compares a result with the truth.
 pub fn score(truth: &Truth, id: &Identified) -> Score {
-    let named = |figure: Figure| {
-        let speaks =
-            |f: &Finding| f.severity() >= Severity::Warning && f.affects().contains(&figure.key());
+    let named = |parameter: ScoredParameter| {
+        let speaks = |f: &Finding| {
+            f.severity() >= Severity::Warning && f.affects().contains(&parameter.key())
+        };
         id.findings.iter().any(speaks)
     };
-    let one = |figure: Figure, truth: f64, estimate: Option<Estimate>| FigureScore {
-        figure,
+    let one = |parameter: ScoredParameter, truth: f64, estimate: Option<Estimate>| EstimateScore {
+        parameter,
         truth,
         estimate,
-        warned: named(figure),
+        warned: named(parameter),
         bound: None,
     };
-    let mut figures = vec![
-        one(Figure::Coulomb, truth.coulomb_nm, id.friction.coulomb),
-        one(Figure::Forward, truth.coulomb_by_direction_nm[0], id.friction.forward),
-        one(Figure::Backward, truth.coulomb_by_direction_nm[1], id.friction.backward),
-        one(Figure::Inertia, truth.inertia_kg_m2, id.inertia),
-        one(Figure::Coupling, truth.coupling_nm_per_rad, id.beam.coupling),
-        one(Figure::Viscous, truth.viscous_nm_s_per_rad, id.friction.viscous),
+    let mut estimates = vec![
+        one(ScoredParameter::Coulomb, truth.coulomb_nm, id.friction.coulomb),
+        one(ScoredParameter::Forward, truth.coulomb_by_direction_nm[0], id.friction.forward),
+        one(ScoredParameter::Backward, truth.coulomb_by_direction_nm[1], id.friction.backward),
+        one(ScoredParameter::Inertia, truth.inertia_kg_m2, id.inertia),
+        one(ScoredParameter::Coupling, truth.coupling_nm_per_rad, id.beam.coupling),
+        one(ScoredParameter::Viscous, truth.viscous_nm_s_per_rad, id.friction.viscous),
     ];
     let modes = matched(&truth.modes, &id.beam.modes);
     for (k, ((omega, zeta), found)) in truth.modes.iter().zip(modes).enumerate() {
-        figures.push(one(Figure::Frequency(k), *omega, found.map(|m| m.natural_frequency_rad_s)));
-        figures.push(one(Figure::Damping(k), *zeta, found.map(|m| m.damping_ratio)));
+        estimates.push(one(
+            ScoredParameter::Frequency(k),
+            *omega,
+            found.map(|m| m.natural_frequency_rad_s),
+        ));
+        estimates.push(one(ScoredParameter::Damping(k), *zeta, found.map(|m| m.damping_ratio)));
     }
     Score {
-        figures,
+        estimates,
         points: points(truth, id),
         curve: curve(truth, id),
         findings: id.findings.iter().map(FindingScore::of).collect(),
@@ -244,9 +249,14 @@ fn is_law_alarm(finding: &Finding) -> bool {
 /// Whether a finding about the whole campaign affects a parameter of the motor's equation of motion.
 fn about_equation(finding: &Finding) -> bool {
     let affects = finding.affects();
-    let named = |figure: Figure| affects.contains(&figure.key());
-    let figures = [Figure::Coulomb, Figure::Viscous, Figure::Inertia, Figure::Coupling];
-    finding.run.is_none() && figures.into_iter().any(named)
+    let named = |parameter: ScoredParameter| affects.contains(&parameter.key());
+    let estimates = [
+        ScoredParameter::Coulomb,
+        ScoredParameter::Viscous,
+        ScoredParameter::Inertia,
+        ScoredParameter::Coupling,
+    ];
+    finding.run.is_none() && estimates.into_iter().any(named)
 }
 
 /// Whether a finding is about the information in the runs, not about the equation of motion.
@@ -312,7 +322,7 @@ fn points(truth: &Truth, id: &Identified) -> Vec<PointScore> {
                 raw: off(point.motor_raw.value),
                 third_harmonic: by_report,
                 corrected: given.map(|r| off(r.value)),
-                deviations: given.map(|r| (r.value - exact).norm() / r.std),
+                standard_errors: given.map(|r| (r.value - exact).norm() / r.std),
                 vouched: point.is_vouched_for(),
             }
         })
@@ -327,7 +337,7 @@ fn curve(truth: &Truth, id: &Identified) -> Vec<CurveScore> {
             let coulomb = if point.direction > 0.0 { forward } else { backward };
             let exact = coulomb + truth.viscous_nm_s_per_rad * point.speed;
             let off = point.friction.value - exact;
-            CurveScore { error: off / exact, deviations: off / point.friction.std }
+            CurveScore { error: off / exact, standard_errors: off / point.friction.std }
         })
         .collect()
 }
@@ -384,9 +394,15 @@ mod tests {
         assert_eq!(omegas(&[5.0, 30.0], &[]), [None, None]);
     }
 
-    fn coulomb(value: f64, std: f64, warned: bool) -> FigureScore {
+    fn coulomb(value: f64, std: f64, warned: bool) -> EstimateScore {
         let estimate = Some(Estimate { value, std });
-        FigureScore { figure: Figure::Coulomb, truth: 1.0, estimate, warned, bound: Some(0.02) }
+        EstimateScore {
+            parameter: ScoredParameter::Coulomb,
+            truth: 1.0,
+            estimate,
+            warned,
+            bound: Some(0.02),
+        }
     }
 
     #[test]
@@ -399,7 +415,7 @@ mod tests {
             "a standard error of zero counts as given"
         );
         assert!(coulomb(1.0, f64::NAN, false).silently_wrong());
-        let refused = FigureScore { estimate: None, ..coulomb(0.0, 0.0, false) };
+        let refused = EstimateScore { estimate: None, ..coulomb(0.0, 0.0, false) };
         assert!(!refused.silently_wrong() && refused.covers().is_none());
     }
 
@@ -415,17 +431,17 @@ mod tests {
         let score = coulomb(1.03, 0.01, false);
         assert!((score.width_over_bound().unwrap() - 0.5).abs() < 1e-6);
         assert!((score.error_over_bound().unwrap() - 1.5).abs() < 1e-9);
-        assert_eq!(FigureScore { bound: None, ..score }.error_over_bound(), None);
+        assert_eq!(EstimateScore { bound: None, ..score }.error_over_bound(), None);
     }
 
-    fn point(third_harmonic: f64, corrected: f64, deviations: f64) -> PointScore {
+    fn point(third_harmonic: f64, corrected: f64, standard_errors: f64) -> PointScore {
         PointScore {
             omega_rad_s: 1.0,
             sinusoidal: true,
             raw: 1.0,
             third_harmonic: Some(third_harmonic),
             corrected: Some(corrected),
-            deviations: Some(deviations),
+            standard_errors: Some(standard_errors),
             vouched: true,
         }
     }

@@ -8,7 +8,7 @@ use lissom::replay::ModalArm;
 
 use crate::bound::Bound;
 use crate::campaign::Campaign;
-use crate::score::{FigureScore, Score, score};
+use crate::score::{EstimateScore, Score, score};
 use crate::study::identified;
 use crate::truth::Truth;
 
@@ -24,7 +24,7 @@ pub fn describe(campaign: &Campaign, seed: u64, quick: bool) -> String {
             let bound = Bound::of(campaign);
             let scored = score(&Truth::of(campaign), &id).with_bound(bound.as_ref());
             lines.push(String::new());
-            lines.push(figures(&scored));
+            lines.push(estimates(&scored));
             if let Some(bound) = bound {
                 lines.push(format!(
                     "residual of the true arm, in standard deviations of the sensors: {:.4?}",
@@ -104,13 +104,13 @@ fn conditions(campaign: &Campaign, seed: u64) -> Vec<String> {
     lines
 }
 
-fn figures(scored: &Score) -> String {
+fn estimates(scored: &Score) -> String {
     let mut text = format!(
         "{:18} {:>13} {:>13} {:>13} {:>13} {:>10} {:>10}\n",
         "parameter", "true", "estimate", "std. error", "bound", "error", "std. errors"
     );
-    for f in &scored.figures {
-        let _ = writeln!(text, "{}", figure(f));
+    for f in &scored.estimates {
+        let _ = writeln!(text, "{}", parameter(f));
     }
     text
 }
@@ -154,8 +154,8 @@ fn friction(law: &FrictionLaw) -> String {
     text
 }
 
-fn figure(f: &FigureScore) -> String {
-    let name = f.figure.to_string();
+fn parameter(f: &EstimateScore) -> String {
+    let name = f.parameter.to_string();
     let Some(e) = f.estimate else { return format!("{name:18} {:13.6e}       refused", f.truth) };
     let mark = match (f.warned, f.silently_wrong()) {
         (true, _) => "warned",
@@ -169,7 +169,7 @@ fn figure(f: &FigureScore) -> String {
         e.std,
         f.bound.unwrap_or(f64::NAN),
         100.0 * f.error().unwrap_or(f64::NAN),
-        f.deviations().unwrap_or(f64::NAN)
+        f.standard_errors().unwrap_or(f64::NAN)
     )
 }
 
@@ -246,7 +246,7 @@ fn points(scored: &Score) -> String {
             percent(Some(p.raw)),
             percent(p.third_harmonic),
             percent(p.corrected),
-            p.deviations.unwrap_or(f64::NAN),
+            p.standard_errors.unwrap_or(f64::NAN),
             if p.vouched { "" } else { "not vouched for" }
         );
     }

@@ -13,8 +13,8 @@ use lissom::identify::{Options, identify};
 use lissom::record::Campaign;
 use lissom::rig::{Sensor, Settle};
 use lissom_study::{
-    Figure, FigureScore, Kept, Kind, Law, Score, Scored, Study, Truth, draw_campaign, median,
-    report, rows, score, study,
+    EstimateScore, Kept, Kind, Law, Score, Scored, ScoredParameter, Study, Truth, draw_campaign,
+    median, report, rows, score, study,
 };
 
 /// Campaigns identified, and those that are only drawn.
@@ -39,32 +39,34 @@ fn scores() -> Vec<&'static Score> {
 }
 
 /// Relative errors of a parameter, of the campaigns that give an estimate.
-fn errors(figure: Figure) -> Vec<f64> {
-    let error = |s: &&Score| s.of(figure).and_then(FigureScore::error).map(f64::abs);
+fn errors(parameter: ScoredParameter) -> Vec<f64> {
+    let error = |s: &&Score| s.of(parameter).and_then(EstimateScore::error).map(f64::abs);
     scores().iter().filter_map(error).collect()
 }
 
 #[track_caller]
-fn holds(figure: Figure, median_most: f64, most: f64) {
-    let errors = errors(figure);
-    assert_eq!(errors.len(), CAMPAIGNS, "{figure}");
-    assert!(median(&errors).unwrap() <= median_most, "{figure}: {errors:?}");
-    assert!(errors.iter().all(|e| *e <= most), "{figure}: {errors:?}");
+fn holds(parameter: ScoredParameter, median_most: f64, most: f64) {
+    let errors = errors(parameter);
+    assert_eq!(errors.len(), CAMPAIGNS, "{parameter}");
+    assert!(median(&errors).unwrap() <= median_most, "{parameter}: {errors:?}");
+    assert!(errors.iter().all(|e| *e <= most), "{parameter}: {errors:?}");
 }
 
 #[test]
 fn estimates_are_as_close_as_they_were() {
-    holds(Figure::Coulomb, 1e-5, 5e-5);
-    holds(Figure::Inertia, 5e-5, 2e-4);
-    holds(Figure::Viscous, 1e-4, 4e-4);
-    holds(Figure::Coupling, 1e-4, 1e-3);
-    holds(Figure::Frequency(0), 1e-5, 5e-5);
+    holds(ScoredParameter::Coulomb, 1e-5, 5e-5);
+    holds(ScoredParameter::Inertia, 5e-5, 2e-4);
+    holds(ScoredParameter::Viscous, 1e-4, 4e-4);
+    holds(ScoredParameter::Coupling, 1e-4, 1e-3);
+    holds(ScoredParameter::Frequency(0), 1e-5, 5e-5);
 }
 
 /// Of about thirty estimates two are expected more than two standard errors off.
 #[test]
 fn standard_errors_are_those_of_the_errors() {
-    let each = || scores().into_iter().flat_map(|s| &s.figures).filter_map(FigureScore::deviations);
+    let each = || {
+        scores().into_iter().flat_map(|s| &s.estimates).filter_map(EstimateScore::standard_errors)
+    };
     let beyond = |z: f64| each().filter(|d| d.abs() > z).count();
     assert!(each().count() > 30);
     assert!(beyond(2.0) <= 5, "{}", beyond(2.0));
@@ -108,14 +110,23 @@ fn wrong_laws_are_reported_and_spare_the_linear_part() {
         let id = identify(&campaign.logs, &Options::default(), |_| {}).unwrap();
         let scored = score(&Truth::of(&campaign), &id);
         assert!(!scored.law_alarms().is_empty(), "{law} {index}");
-        let linear = |f: &&FigureScore| {
-            matches!(f.figure, Figure::Inertia | Figure::Coupling | Figure::Frequency(_))
+        let linear = |f: &&EstimateScore| {
+            matches!(
+                f.parameter,
+                ScoredParameter::Inertia
+                    | ScoredParameter::Coupling
+                    | ScoredParameter::Frequency(_)
+            )
         };
-        for f in scored.figures.iter().filter(linear) {
+        for f in scored.estimates.iter().filter(linear) {
             let error = f.error().map_or(f64::INFINITY, f64::abs);
-            assert!(error < 5e-3, "{law} {index}: {} off by {error:.1e}", f.figure);
-            let deviations = f.deviations().map_or(f64::INFINITY, f64::abs);
-            assert!(deviations < 5.0, "{law} {index}: {} off by {deviations:.1}", f.figure);
+            assert!(error < 5e-3, "{law} {index}: {} off by {error:.1e}", f.parameter);
+            let standard_errors = f.standard_errors().map_or(f64::INFINITY, f64::abs);
+            assert!(
+                standard_errors < 5.0,
+                "{law} {index}: {} off by {standard_errors:.1}",
+                f.parameter
+            );
         }
     }
 }
@@ -128,7 +139,7 @@ fn a_law_that_the_noise_hides_is_not_silently_wrong() {
     let id = identify(&campaign.logs, &Options::default(), |_| {}).unwrap();
     let scored = score(&Truth::of(&campaign), &id);
     assert!(!scored.law_alarms().is_empty());
-    let wrong: Vec<_> = scored.figures.iter().filter(|f| f.silently_wrong()).collect();
+    let wrong: Vec<_> = scored.estimates.iter().filter(|f| f.silently_wrong()).collect();
     assert!(wrong.is_empty(), "{wrong:?}");
 }
 

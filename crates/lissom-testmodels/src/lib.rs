@@ -1,4 +1,4 @@
-//! Analytic plants shared by tests, benches and examples, and exact figures of them.
+//! Analytic plants shared by tests, benches and examples, and exact estimates of them.
 
 mod beams;
 mod double_double;

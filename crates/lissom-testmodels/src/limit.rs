@@ -1,5 +1,5 @@
 //! Lumped arms on the way to a distributed one: three beams, two ways to lump them, and the
-//! figures by which arms are compared. Beams of length, mass per length and rigidity one.
+//! properties by which arms are compared. Beams of length, mass per length and rigidity one.
 
 use lissom::beam::{Base, BeamError, DistributedBeam, LumpedBeam, Payload, Piece};
 use num_complex::Complex64;
@@ -103,7 +103,7 @@ pub const EACH: usize = 3;
 
 /// What an arm is compared by.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Figures {
+pub struct Properties {
     /// The first natural frequencies with the motor clamped \[rad/s\].
     pub frequencies_rad_s: [f64; EACH],
     /// The first zeros of the tip, the positive s of each pair \[1/s\].
@@ -114,7 +114,7 @@ pub struct Figures {
     pub inertia_kg_m2: f64,
 }
 
-impl Figures {
+impl Properties {
     /// Those of the distributed beam, which carries no rotary inertia.
     pub fn of_distributed(beam: &DistributedBeam) -> Self {
         let frequencies_rad_s = first(&beam.frequencies_rad_s(Base::Clamped, EACH));
@@ -132,7 +132,7 @@ impl Figures {
         }
     }
 
-    /// Those of a lumped arm of that beam, which has the figures `exact`.
+    /// Those of a lumped arm of that beam, which has the properties `exact`.
     pub fn of_lumped(arm: &LumpedArm, exact: &Self) -> Self {
         let omega = coupling_omega_rad_s(&exact.frequencies_rad_s);
         Self {

@@ -1,7 +1,7 @@
 //! `equivalent-arm.svg`: a distributed beam and its equivalent lumped arm.
 
 use lissom::beam::{Base, Damping, DistributedBeam, Piece};
-use lissom::identify::{Deviations, EquivalentData, MotorData, Response, equivalent};
+use lissom::identify::{EquivalentData, MotorData, Response, StdSource, equivalent};
 use lissom_report::{Axis, LinePlot, Role, Trace, TraceStyle};
 use num_complex::Complex64;
 
@@ -98,6 +98,6 @@ fn data(
             response,
             torque_per_command: motor.torque_constant_nm_per_a(),
         }),
-        deviations: Deviations::Measured,
+        std_source: StdSource::Measured,
     })
 }

@@ -32,7 +32,7 @@ pub(crate) fn figure() -> Drawn {
     let time: Vec<f64> = plans.iter().map(|p| p.time_s).collect();
     for (k, role) in (0..plans[0].expected.len()).zip(ROLES) {
         let std: Vec<f64> = plans.iter().map(|p| 100.0 * p.expected[k].std).collect();
-        let label = plans[0].expected[k].figure.name();
+        let label = plans[0].expected[k].parameter.name();
         plot = plot.trace(Trace::line(label, role, time.clone(), std.clone())).trace(Trace::new(
             "",
             role,

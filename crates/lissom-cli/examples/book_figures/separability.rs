@@ -22,7 +22,7 @@ const RADIUS_SQUARE: f64 = 5.991_464_547;
 /// Points of an ellipse.
 const LINE: usize = 200;
 
-/// Confidence ellipses of inertia and coupling, as deviations from the truth.
+/// Confidence ellipses of inertia and coupling, as standard errors from the truth.
 pub(crate) fn figure() -> Drawn {
     let rig = noisy_rig(NOISE_RAD)?;
     let truth = [rig.arm.motor.inertia_kg_m2(), rig.arm.dynamics().coupling_motor];

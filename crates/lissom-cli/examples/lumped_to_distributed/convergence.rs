@@ -1,7 +1,7 @@
 //! Errors of lumped arms over the number of masses.
 
 use lissom::beam::{BeamError, DistributedBeam};
-use lissom_testmodels::limit::{Figures, LumpedArm, Masses, order};
+use lissom_testmodels::limit::{LumpedArm, Masses, Properties, order};
 
 /// Numbers of masses.
 pub(crate) const COUNTS: [usize; 9] = [4, 8, 16, 32, 64, 128, 256, 512, 1024];
@@ -32,10 +32,10 @@ pub(crate) struct Study {
 
 impl Study {
     pub(crate) fn new(beam: &DistributedBeam, masses: Masses) -> Result<Self, BeamError> {
-        let exact = Figures::of_distributed(beam);
+        let exact = Properties::of_distributed(beam);
         let mut errors = vec![Vec::new(); NAMES.len()];
         for count in COUNTS {
-            let found = Figures::of_lumped(&LumpedArm::new(beam, count, masses)?, &exact);
+            let found = Properties::of_lumped(&LumpedArm::new(beam, count, masses)?, &exact);
             for (list, error) in errors.iter_mut().zip(found.errors(&exact)) {
                 list.push(error);
             }

@@ -16,7 +16,7 @@ use crate::shared::output_guard;
 use crate::tasks::identification::{Asked, first_answer, identified};
 use crate::tasks::known_arm::{Reference, checked};
 use crate::views::{
-    arm_check, campaign_summary, equivalent_table, figure_table, finding_list, printer,
+    arm_check, campaign_summary, equivalent_table, finding_list, parameter_table, printer,
     report_page, result_plots, separability_section,
 };
 
@@ -34,7 +34,7 @@ pub(crate) fn run(args: &IdentifyArgs) -> Result<ExitCode, Failure> {
     if to_terminal && asked.effort != Effort::Quick {
         let first = first_answer(&args.campaign, &file, asked)?;
         printer::line("first result, before the search (running now):");
-        figure_table::figures(names, &first, reference);
+        parameter_table::parameters(names, &first, reference);
         printer::line("");
     }
     let id = identified(&args.campaign, &file, asked)?;
@@ -61,10 +61,10 @@ pub(crate) fn run(args: &IdentifyArgs) -> Result<ExitCode, Failure> {
         campaign_summary::ranges(names, &file.campaign);
         campaign_summary::runs(&id);
         printer::line("");
-        figure_table::figures(names, &id, reference);
-        figure_table::speeds_of_law(names, &id);
-        figure_table::line_of_least_squares(names, &id);
-        figure_table::constant_velocity(names, &id);
+        parameter_table::parameters(names, &id, reference);
+        parameter_table::speeds_of_law(names, &id);
+        parameter_table::line_of_least_squares(names, &id);
+        parameter_table::constant_velocity(names, &id);
         if let Some(found) = &id.equivalent {
             equivalent_table::brief(names, found);
         }

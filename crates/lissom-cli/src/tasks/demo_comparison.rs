@@ -56,7 +56,7 @@ pub(crate) fn comparison(arm: &Arm, id: &Identified) -> Vec<DemoRow> {
             truth: arm.dynamics().coupling_motor,
             third: fit.and_then(|f| f.coupling.first().copied()),
             regression: r.and_then(|r| r.coupling.first().copied().flatten()),
-            output_error: oe.map(|o| o.figure(ModalArm::coupling_nm_per_rad)),
+            output_error: oe.map(|o| o.estimate_of(ModalArm::coupling_nm_per_rad)),
         },
         DemoRow {
             name: "beam frequency",
@@ -72,7 +72,7 @@ pub(crate) fn comparison(arm: &Arm, id: &Identified) -> Vec<DemoRow> {
 pub(crate) fn compared(rows: &[DemoRow], result: ResultFile) -> DemoFile {
     let estimate = |e: Option<Estimate>| e.map(ComparedEstimateEntry::of);
     let entry = |r: &DemoRow| ComparisonEntry {
-        figure: r.name.to_owned(),
+        parameter: r.name.to_owned(),
         unit: r.unit.to_owned(),
         truth: r.truth,
         third_harmonic: estimate(r.third),

@@ -3,7 +3,7 @@
 use std::path::Path;
 
 use lissom::identify::{
-    Deviations, Effort, EquivalentData, Estimate, Identified, MotorData, Response, without_origin,
+    Effort, EquivalentData, Estimate, Identified, MotorData, Response, StdSource, without_origin,
 };
 use lissom::record::{Axis, CommandQuantity};
 use lissom_io::units::{Dimension, parse_any_unit, parse_quantity};
@@ -78,8 +78,8 @@ impl Input {
     fn tables(args: &EquivalentArgs) -> Result<Self, Failure> {
         let read = read_responses(&args.inputs).map_err(lissom_io::Error::from)?;
         let all = || read.points.iter().chain(&read.motor);
-        let deviations_known = all().all(|r| r.std.is_some());
-        if !deviations_known && all().any(|r| r.std.is_some()) {
+        let std_known = all().all(|r| r.std.is_some());
+        if !std_known && all().any(|r| r.std.is_some()) {
             let words = "some responses have a standard error and some have none".to_owned();
             let hint = "give a std column for each response, or for none";
             return Err(Failure::Asked(words, hint));
@@ -99,11 +99,7 @@ impl Input {
             omega_rad_s: read.omega_rad_s.clone(),
             outputs: read.points.iter().map(angles).collect(),
             motor,
-            deviations: if deviations_known {
-                Deviations::Measured
-            } else {
-                Deviations::FromResidual
-            },
+            std_source: if std_known { StdSource::Measured } else { StdSource::FromResidual },
         };
         let names = UnitNames { torque_known: constant.is_some(), axis: Axis::Rotary, command };
         Ok(Self { data, names, identified: None })

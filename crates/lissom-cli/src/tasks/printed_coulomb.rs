@@ -60,7 +60,7 @@ pub(crate) fn rows(rig: &Rig, id: &Identified) -> Vec<CoulombRow> {
 
 pub(crate) fn compared(rows: &[CoulombRow]) -> FiguresFile {
     let entry = |r: &CoulombRow| ComparedCoulombEntry {
-        figure: r.name.to_owned(),
+        method: r.name.to_owned(),
         printed_a: r.printed_a,
         value_a: r.here.map(|e| e.value),
         std_a: r.here.map(|e| e.std),

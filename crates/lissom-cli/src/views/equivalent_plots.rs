@@ -1,6 +1,6 @@
 //! Bode plots of the responses and of the fit.
 
-use lissom::identify::{Deviations, Equivalent, Response};
+use lissom::identify::{Equivalent, Response, StdSource};
 use lissom_io::write::Batch;
 use lissom_report::{BodePlot, FrequencyAxis, Role, Series, Style};
 use num_complex::Complex64;
@@ -40,7 +40,7 @@ fn measured(label: &str, role: Role, omega_rad_s: &[f64], all: &[Response], bars
 }
 
 fn with_bars(input: &Input) -> bool {
-    input.data.deviations != Deviations::FromResidual
+    input.data.std_source != StdSource::FromResidual
 }
 
 fn points(input: &Input, found: &Equivalent) -> BodePlot {

@@ -1,7 +1,7 @@
 //! Tables of an equivalent arm.
 
 use lissom::beam::RootClass;
-use lissom::identify::{Deviations, Equivalent, Estimate, ResponseZero, StrainlessForm};
+use lissom::identify::{Equivalent, Estimate, ResponseZero, StdSource, StrainlessForm};
 use lissom_io::UnitNames;
 use lissom_report::{Cells, Page, Table, interval, with_uncertainty};
 
@@ -74,7 +74,7 @@ fn head(input: &Input, found: &Equivalent) {
         data.omega_rad_s.len(),
         data.names.join(", ")
     ));
-    let left = if found.deviations == Deviations::FromResidual {
+    let left = if found.std_source == StdSource::FromResidual {
         "standard errors from the residual".to_owned()
     } else {
         format!("or {:.2} standard errors", found.fit.weighted_rms)

@@ -24,7 +24,7 @@ pub(crate) fn report(arm: &Path, plan: &Plan, out: &Path) {
     let mut rows = vec![head.map(str::to_owned).to_vec()];
     rows.extend(plan.expected.iter().map(|e| {
         let got = if e.std < 1.0 { percent(e.std) } else { "not identified".to_owned() };
-        vec![e.figure.name(), got, percent(e.wanted)]
+        vec![e.parameter.name(), got, percent(e.wanted)]
     }));
     printer::table(&rows);
     printer::line("");

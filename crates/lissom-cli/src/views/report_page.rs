@@ -8,7 +8,7 @@ use lissom_report::{
     Severity as ReportSeverity, Table, Trace, significant,
 };
 
-use super::figure_table::{FigureRow, KNOWN_DIGITS, classical_rows, figure_rows};
+use super::parameter_table::{KNOWN_DIGITS, ParameterRow, classical_rows, parameter_rows};
 use super::printer::counted;
 use super::{
     arm_check, bode_plots, equivalent_table, friction_curve, separability_section,
@@ -92,7 +92,7 @@ pub(crate) fn page(
                 "The command that maintains a velocity, both directions as magnitudes. Solid: straight \
                  lines through the points. Dashed: extrapolated to zero speed.",
             )
-            .key_figures("Friction from constant velocities", &classical_figures(names, id))
+            .key_figures("Friction from constant velocities", &constant_velocity_values(names, id))
             .table(&points(names, id));
     }
     page = equivalent_table::section(page, names, id.equivalent.as_ref());
@@ -106,7 +106,7 @@ pub(crate) fn page(
 }
 
 fn key_figures(names: UnitNames, id: &Identified, reference: Option<&Reference>) -> Vec<KeyFigure> {
-    figure_rows(names, id, reference)
+    parameter_rows(names, id, reference)
         .into_iter()
         .map(|row| {
             let note = match (row.known, reference) {
@@ -120,18 +120,18 @@ fn key_figures(names: UnitNames, id: &Identified, reference: Option<&Reference>)
         .collect()
 }
 
-fn key_figure(row: FigureRow, note: String) -> KeyFigure {
+fn key_figure(row: ParameterRow, note: String) -> KeyFigure {
     KeyFigure {
         name: row.name.trim().to_owned(),
-        value: row.figure.map(|e| e.value),
-        std: row.figure.map(|e| e.std),
-        ci95: row.figure.map(|e| e.ci95()),
+        value: row.estimate.map(|e| e.value),
+        std: row.estimate.map(|e| e.std),
+        ci95: row.estimate.map(|e| e.ci95()),
         unit: row.unit,
         note,
     }
 }
 
-fn classical_figures(names: UnitNames, id: &Identified) -> Vec<KeyFigure> {
+fn constant_velocity_values(names: UnitNames, id: &Identified) -> Vec<KeyFigure> {
     let rows = id.constant_velocity.as_ref().map(|c| classical_rows(names, id, c));
     rows.unwrap_or_default().into_iter().map(|row| key_figure(row, String::new())).collect()
 }

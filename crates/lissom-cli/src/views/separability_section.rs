@@ -27,13 +27,13 @@ pub(crate) fn section(page: Page, names: UnitNames, id: &Identified) -> Page {
     for words in found.words(names.axis) {
         page = page.paragraph(&words);
     }
-    if !found.figures.is_empty() {
-        page = page.table(&figures(found));
+    if !found.parameters.is_empty() {
+        page = page.table(&parameters(found));
     }
     if found.runs.is_empty() { page } else { page.table(&runs(found)) }
 }
 
-fn figures(found: &Separability) -> Table {
+fn parameters(found: &Separability) -> Table {
     let title = if found.condition.is_finite() {
         format!("Relative standard errors (condition number {:.0})", found.condition)
     } else {
@@ -47,8 +47,8 @@ fn figures(found: &Separability) -> Table {
             ("if the other parameters were known", Cells::Numbers),
         ],
     );
-    for known in &found.figures {
-        table = table.row([known.figure.name(), share(known.std), share(known.alone)]);
+    for known in &found.parameters {
+        table = table.row([known.parameter.name(), share(known.std), share(known.alone)]);
     }
     table
 }
@@ -64,11 +64,11 @@ fn runs(found: &Separability) -> Table {
         ],
     );
     for run in &found.runs {
-        let most = run.figures.iter().max_by(|a, b| a.growth.total_cmp(&b.growth));
+        let most = run.parameters.iter().max_by(|a, b| a.growth.total_cmp(&b.growth));
         table = table.row([
             run.run.clone(),
             format!("{:.2}", run.residual),
-            most.map_or_else(String::new, |c| c.figure.name()),
+            most.map_or_else(String::new, |c| c.parameter.name()),
             most.map_or_else(String::new, |c| growth(c.growth)),
         ]);
     }

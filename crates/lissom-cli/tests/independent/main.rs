@@ -2,12 +2,12 @@
 //! that shares an error with the rig it was tested on would fail here.
 //!
 //! `make.py` writes the logs. The reference is a multisine: such a motion has no single frequency,
-//! so that all figures are the regression's, and the third harmonic has no part in them.
+//! so that all estimates are the regression's, and the third harmonic has no part in them.
 //!
-//! Errors, and in parentheses deviations, which the tests show with
+//! Errors, and in parentheses standard errors, which the tests show with
 //! `cargo test -p lissom-cli --test independent -- --nocapture`:
 //!
-//! | figure    | scipy             | MuJoCo            |
+//! | estimate    | scipy             | MuJoCo            |
 //! |-----------|-------------------|-------------------|
 //! | Coulomb   | -0.0624 % (-2.08) |  0.0051 %  (0.50) |
 //! | forward   | -0.0708 % (-2.15) |  0.0096 %  (0.96) |
@@ -30,7 +30,7 @@ const COUPLING_NM_PER_RAD: f64 = 0.4;
 const FREQUENCY_RAD_S: f64 = 11.0;
 
 // In the rms of the logs the drive gives 0.31 N·m, of which the beam takes 0.29, inertia 0.032 and
-// viscous friction 0.007: the smaller its torque, the wider a figure's bar.
+// viscous friction 0.007: the smaller its torque, the wider an estimate's bar.
 
 /// A jump of 0.17 N·m at every reversal, against currents known to 1e-6 A.
 const COULOMB_ERROR: f64 = 0.003;
@@ -44,8 +44,8 @@ const VISCOUS_ERROR: f64 = 0.03;
 const COUPLING_ERROR: f64 = 0.003;
 /// A resonance over 21 of its periods, in a ratio of angles that friction has no part in.
 const FREQUENCY_ERROR: f64 = 0.001;
-/// Two logs are no study of coverage: four deviations catch intervals that are wishful.
-const DEVIATIONS: f64 = 4.0;
+/// Two logs are no study of coverage: four standard errors catch intervals that are wishful.
+const STANDARD_ERRORS: f64 = 4.0;
 
 /// What the command gives for a log beside this file.
 fn identify(file: &str) -> Value {
@@ -63,14 +63,14 @@ fn identify(file: &str) -> Value {
     serde_json::from_slice(&output.stdout).unwrap()
 }
 
-/// Compares all figures of a log with the truth.
+/// Compares all estimates of a log with the truth.
 fn check(file: &str, forward_nm: f64, backward_nm: f64) {
     let result = identify(file);
     assert!(result["methods"]["third_harmonic"].is_null(), "{file} has a single frequency");
     let (friction, beam) = (&result["friction"], &result["beam"]);
     let modes = beam["modes"].as_array().unwrap();
     assert_eq!(modes.len(), 1, "{modes:?}");
-    let figures = [
+    let estimates = [
         ("Coulomb", &friction["coulomb_nm"], 0.5 * (forward_nm + backward_nm), COULOMB_ERROR),
         ("forward", &friction["forward_nm"], forward_nm, DIRECTION_ERROR),
         ("backward", &friction["backward_nm"], backward_nm, DIRECTION_ERROR),
@@ -79,12 +79,15 @@ fn check(file: &str, forward_nm: f64, backward_nm: f64) {
         ("coupling", &beam["coupling_nm_per_rad"], COUPLING_NM_PER_RAD, COUPLING_ERROR),
         ("frequency", &modes[0]["natural_frequency_rad_s"], FREQUENCY_RAD_S, FREQUENCY_ERROR),
     ];
-    for (name, figure, truth, largest) in figures {
-        let [value, std] = ["value", "std"].map(|key| figure[key].as_f64().unwrap());
-        let (error, deviations) = (value / truth - 1.0, (value - truth) / std);
-        println!("{file}: {name} {:.4} % ({deviations:.2})", 100.0 * error);
+    for (name, estimate, truth, largest) in estimates {
+        let [value, std] = ["value", "std"].map(|key| estimate[key].as_f64().unwrap());
+        let (error, standard_errors) = (value / truth - 1.0, (value - truth) / std);
+        println!("{file}: {name} {:.4} % ({standard_errors:.2})", 100.0 * error);
         assert!(error.abs() < largest, "{file}: {name} {value}, in truth {truth}");
-        assert!(deviations.abs() < DEVIATIONS, "{file}: {name} {value} ± {std}, in truth {truth}");
+        assert!(
+            standard_errors.abs() < STANDARD_ERRORS,
+            "{file}: {name} {value} ± {std}, in truth {truth}"
+        );
     }
 }
 

@@ -90,10 +90,10 @@ fn predicts_the_force_of_the_other_log() {
     assert!(error > 0.5 * train.relative_residual);
 }
 
-/// The page that shows these figures.
+/// The page that shows these estimates.
 const PAGE: &str = include_str!("../../../../docs/src/evidence/measured.md");
 
-/// The published figures as an arm, in place of those found.
+/// The published estimates as an arm, in place of those found.
 fn published(found: &serde_json::Value) -> serde_json::Value {
     let mut result = found.clone();
     let arm = &mut result["arm"];
@@ -109,7 +109,7 @@ fn published(found: &serde_json::Value) -> serde_json::Value {
     result
 }
 
-/// The figures of the first log, and the published ones, on the log that neither is from: the same
+/// The estimates of the first log, and the published ones, on the log that neither is from: the same
 /// preprocessing for both.
 #[test]
 fn the_other_logs_force_is_predicted_better_than_by_the_published_figures() {
@@ -125,14 +125,17 @@ fn the_other_logs_force_is_predicted_better_than_by_the_published_figures() {
             v["torque"]["relative_error"].as_f64().unwrap()
         };
         let (own, theirs) = (left(&found), left(&known));
-        assert!(own < 0.9 * theirs, "{window}: {own} by lissom, {theirs} by the published figures");
+        assert!(
+            own < 0.9 * theirs,
+            "{window}: {own} by lissom, {theirs} by the published estimates"
+        );
         assert!(own < 0.05, "{window}: {own}");
         let row = format!("| {window} | {:.2} % | {:.2} % |", 100.0 * own, 100.0 * theirs);
         assert!(PAGE.contains(&row), "docs/src/evidence/measured.md has another row than {row}");
     }
 }
 
-/// Relative difference of the classical figure from the published one: the slow stretches lie at the
+/// Relative difference of the classical estimate from the published one: the slow stretches lie at the
 /// ends of the travel, where friction is higher.
 const CLASSICAL: f64 = 0.08;
 
@@ -165,7 +168,7 @@ fn constant_velocities_give_friction_near_the_published_figure() {
     let viscous = |line: usize| value(&classical["lines"][line]["viscous_n_s_per_m"]);
     assert!((viscous(0) / 166.7 - 1.0).abs() < 0.1, "{}", viscous(0));
     assert!((viscous(1) / 239.6 - 1.0).abs() < 0.1, "{}", viscous(1));
-    // The regression stands, and its figures are the ones taken.
+    // The regression stands, and its estimates are the ones taken.
     assert_eq!(
         result["friction"]["coulomb_n"],
         result["methods"]["friction_law"]["chosen"]["coulomb_n"]

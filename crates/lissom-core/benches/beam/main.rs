@@ -83,7 +83,7 @@ fn group<'a>(c: &'a mut Criterion, name: &str, seconds: u64) -> BenchmarkGroup<'
     group
 }
 
-/// The reference itself against the 200-bit figures of the tests.
+/// The reference itself against the 200-bit estimates of the tests.
 fn check_reference() {
     let file = format!("{}/tests/beam_reference/lumped.json", env!("CARGO_MANIFEST_DIR"));
     let file: Value = serde_json::from_str(&std::fs::read_to_string(file).unwrap()).unwrap();

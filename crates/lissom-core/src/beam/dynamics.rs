@@ -6,34 +6,34 @@ use super::three_moment::ThreeMoment;
 use super::{BeamError, Damping, LumpedBeam, MOST_MASSES};
 
 /// The beam's equation of motion as matrices,
-/// `q̈ = E·(q − 1·θ_m) + R·(q̇ − 1·θ̇_m) + G·q̇ + p·T_n + f·F_n`, with the coupling torque
-/// `C_t = hᵀ·(q − 1·θ_m) + gᵀ·(q̇ − 1·θ̇_m) + h_T·T_n`.
+/// `q̈ = Â·(q − 1·θ_m) + D̂_w·(q̇ − 1·θ̇_m) + D̂_f·q̇ + P̂·T_n + Q̂·F_n`, with the coupling torque
+/// `C_t = hᵀ·(q − 1·θ_m) + h'ᵀ·(q̇ − 1·θ̇_m) + h_{n+2}·T_n`.
 ///
 /// q \[rad\] holds the angles θ_1 … θ_n and, if the payload resists turning
 /// ([`Payload::turns`](super::Payload::turns)), the slope of the tip. All of them equal θ_m when the arm turns as one
-/// body, so B = −A·1 holds exactly.
+/// body, so B̂ = −Â·1 holds exactly.
 ///
 /// # Source
 /// `[Feliu1989, eqs. (13), (15)]` divided by the masses; force and torque on the tip act at the last mass.
 #[derive(Debug, Clone, PartialEq)]
 pub struct BeamDynamics {
-    /// E, elastic forces \[1/s²\], k × k for k coordinates.
+    /// Â, elastic forces \[1/s²\], k × k for k coordinates.
     pub elastic: DMatrix<f64>,
-    /// R, damping within the beam \[1/s\], k × k; `None` if there is none.
+    /// D̂_w, damping within the beam \[1/s\], k × k; `None` if there is none.
     pub relative: Option<DMatrix<f64>>,
-    /// G, damping against the fixed frame \[1/s\], k × k; `None` if there is none.
+    /// D̂_f, damping against the fixed frame \[1/s\], k × k; `None` if there is none.
     pub absolute: Option<DMatrix<f64>>,
     /// h, coupling torque per angle of each coordinate \[N·m/rad\].
     pub coupling: DVector<f64>,
     /// h_{n+1} \[N·m/rad\], `hᵀ·1 + h_{n+1} = 0`: coupling torque per angle of the motor with all coordinates held.
     pub coupling_motor: f64,
-    /// g, coupling torque per velocity \[N·m·s/rad\]; `None` without damping within the beam.
+    /// h', coupling torque per velocity \[N·m·s/rad\]; `None` without damping within the beam.
     pub coupling_rate: Option<DVector<f64>>,
-    /// f, accelerations per tip force \[1/(kg·m)\].
+    /// Q̂, accelerations per tip force \[1/(kg·m)\].
     pub force: DVector<f64>,
-    /// p, accelerations per tip torque \[1/(kg·m²)\].
+    /// P̂, accelerations per tip torque \[1/(kg·m²)\].
     pub torque: DVector<f64>,
-    /// h_T, coupling torque per tip torque \[1\]; zero if the slope of the tip is a coordinate.
+    /// h_{n+2}, coupling torque per tip torque \[1\]; zero if the slope of the tip is a coordinate.
     pub coupling_torque: f64,
 }
 

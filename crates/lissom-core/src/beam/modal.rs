@@ -40,7 +40,7 @@ pub struct KnownMode {
 ///
 /// η_k is the coordinate of mode k \[rad\], θ_i the angle of point i; the other symbols are explained at [`KnownMode`].
 /// The gains of each point add up to one, so that the beam is not bent when it turns as one body. In the angles of the
-/// points this is (17)-(18) with `Â = −R·Ω²·R⁻¹` and `Ĥ = −cᵀ·R⁻¹`, R the matrix of gains and Ω² = diag(ω_k²). The
+/// points this is (17)-(18) with `Â = −ρ·Ω²·ρ⁻¹` and `Ĥ = −cᵀ·ρ⁻¹`, ρ the matrix of gains and Ω² = diag(ω_k²). The
 /// inertia of the beam about the axis is `Σ c_k/ω_k²`.
 ///
 /// # Source
@@ -48,9 +48,9 @@ pub struct KnownMode {
 #[derive(Debug, Clone, PartialEq)]
 pub struct ModalBeam {
     modes: Vec<KnownMode>,
-    /// R, points × modes.
+    /// ρ, points × modes.
     gains: DMatrix<f64>,
-    /// R⁻¹.
+    /// ρ⁻¹.
     inverse: DMatrix<f64>,
 }
 
@@ -320,7 +320,7 @@ impl ModalBeam {
         }
     }
 
-    /// The masses of the points' angles, `R⁻ᵀ·diag(c_k/ω_k²)·R⁻¹` \[kg·m²\].
+    /// The masses of the points' angles, `ρ⁻ᵀ·diag(c_k/ω_k²)·ρ⁻¹` \[kg·m²\].
     pub(crate) fn mass_matrix(&self) -> DMatrix<f64> {
         let inertias = self.modes.iter().map(KnownMode::inertia_kg_m2);
         let inertias = DVector::from_iterator(self.len(), inertias);

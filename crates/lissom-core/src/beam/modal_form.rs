@@ -3,22 +3,22 @@
 use nalgebra::{DMatrix, DVector, Schur};
 use num_complex::Complex64;
 
-/// Â, B̂, Ĥ and ĥ of modes `η̈_k = ω_k²·(θ_m − η_k)` that points see as Θ = R·η and the motor as
+/// Â, B̂, Ĥ and ĥ of modes `η̈_k = ω_k²·(θ_m − η_k)` that points see as Θ = ρ·η and the motor as
 /// `C_t = Σ c_k·(θ_m − η_k)`.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct ModalForm {
-    /// `Â = −R·Ω²·R⁻¹`.
+    /// `Â = −ρ·Ω²·ρ⁻¹`.
     pub(crate) a: DMatrix<f64>,
-    /// `B̂ = R·Ω²·1`.
+    /// `B̂ = ρ·Ω²·1`.
     pub(crate) b: DVector<f64>,
-    /// `Ĥ = −cᵀ·R⁻¹`.
+    /// `Ĥ = −cᵀ·ρ⁻¹`.
     pub(crate) h: DVector<f64>,
     /// `ĥ = Σ c_k`.
     pub(crate) h_motor: f64,
 }
 
 impl ModalForm {
-    /// Of shares R (points × modes), their inverse, ω_k² and c_k.
+    /// Of shares ρ (points × modes), their inverse, ω_k² and c_k.
     ///
     /// # Source
     /// What `[Feliu1989, eqs. (19)-(23)]` and step 6 come to in exact numbers.

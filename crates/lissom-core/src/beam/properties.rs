@@ -48,7 +48,7 @@ impl Property {
 /// Largest number of masses for which the checks run: some of them solve dense systems.
 pub const MOST_CHECKED: usize = 200;
 
-/// Figures that are exact but for rounding.
+/// Estimates that are exact but for rounding.
 const ROUNDING: f64 = 1e-12;
 /// Against dense solvers, whose error grows with the spread of frequencies.
 const DENSE: f64 = 1e-6;

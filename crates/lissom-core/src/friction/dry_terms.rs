@@ -6,7 +6,7 @@ use super::ripple::{Ripple, RippleNumber, RippleSeries};
 use super::taylor_row::Row;
 
 /// Terms of dry friction besides Coulomb friction and offset. The torque of a sliding joint is
-/// `s·(A·e^{−|θ̇|/v_s} + Σ_i B_i·cos k_iθ + C_i·sin k_iθ)`, with the direction of motion s = ±1.
+/// `s·(A_s·e^{−|θ̇|/v_s} + Σ_r B_r·cos k_rθ + C_r·sin k_rθ)`, with the direction of motion s = ±1.
 ///
 /// The symbols are explained at [`NearRest`] and [`Ripple`]. Rig, replay and identification share these terms.
 #[derive(Debug, Clone, PartialEq, Default)]

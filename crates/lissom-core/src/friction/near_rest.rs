@@ -15,16 +15,16 @@ const CONTINUED: f64 = -0.5;
 /// Speeds at which nothing of it is left, over v_s: of an exponential, and of a Gaussian.
 const GONE: [f64; 2] = [9.0, 3.0];
 
-/// Change of friction near rest: the torque against the motion is `s·(A + s·a)·e^{−|θ̇|/v_s}` or
-/// `s·(A + s·a)·e^{−(θ̇/v_s)²}`, with the direction of motion s = ±1.
+/// Change of friction near rest: the torque against the motion is `s·(A_s + s·a_s)·e^{−|θ̇|/v_s}` or
+/// `s·(A_s + s·a_s)·e^{−(θ̇/v_s)²}`, with the direction of motion s = ±1.
 ///
 /// # Source
-/// `[Armstrong1994]`. A > 0 is the Stribeck effect; with A < 0 friction grows less than in proportion to speed.
+/// `[Armstrong1994]`. A_s > 0 is the Stribeck effect; with A_s < 0 friction grows less than in proportion to speed.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct NearRest {
-    /// A \[N·m\]: friction at rest minus Coulomb friction, mean of both directions.
+    /// A_s \[N·m\]: friction at rest minus Coulomb friction, mean of both directions.
     pub torque_nm: f64,
-    /// a \[N·m\]: half the difference of that change, forward minus backward.
+    /// a_s \[N·m\]: half the difference of that change, forward minus backward.
     pub offset_nm: f64,
     /// v_s \[rad/s\]: speed over which friction changes.
     pub speed_rad_s: f64,
@@ -35,7 +35,7 @@ pub struct NearRest {
 /// A parameter of [`NearRest`] that a search may change.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum NearRestNumber {
-    /// A, the torque.
+    /// A_s, the torque.
     Torque,
     /// v_s, the speed.
     Speed,

@@ -7,26 +7,26 @@ use super::taylor_row::Row;
 /// Largest phase that may pass over a step with friction linear in time \[rad\].
 const PHASE_PER_STEP: f64 = 0.4;
 
-/// Ripple: friction that changes periodically over the travel, `s·(B·cos kθ + C·sin kθ)`, with
+/// Ripple: friction that changes periodically over the travel, `s·(B_r·cos k_rθ + C_r·sin k_rθ)`, with
 /// the direction of motion s = ±1.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Ripple {
-    /// k \[1/rad, or rad/m on a linear axis\]: waves per turn on a rotary axis.
+    /// k_r \[1/rad, or rad/m on a linear axis\]: waves per turn on a rotary axis.
     pub per_rad: f64,
-    /// B \[N·m\], the cosine part.
+    /// B_r \[N·m\], the cosine part.
     pub cosine_nm: f64,
-    /// C \[N·m\], the sine part.
+    /// C_r \[N·m\], the sine part.
     pub sine_nm: f64,
 }
 
 /// A parameter of [`Ripple`] that a search may change.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum RippleNumber {
-    /// B, the cosine part.
+    /// B_r, the cosine part.
     Cosine,
-    /// C, the sine part.
+    /// C_r, the sine part.
     Sine,
-    /// k, waves per turn.
+    /// k_r, waves per turn.
     Rate,
 }
 

@@ -34,7 +34,7 @@ impl Friction {
     /// Friction against the motion at a speed in a direction (+1 or −1) \[N·m\], without ripples; positive if it
     /// brakes. `None` if one of its parameters is refused.
     ///
-    /// `C_± + V_±·|v| + A·e^{−|v|/v_s}`, or `A·e^{−(v/v_s)²}` for the last term.
+    /// `CF_± + V_±·|v| + A_s·e^{−|v|/v_s}`, or `A_s·e^{−(v/v_s)²}` for the last term.
     pub fn at(&self, speed: f64, direction: f64) -> Option<f64> {
         let forward = direction > 0.0;
         let coulomb = if forward { self.forward } else { self.backward }?;
@@ -134,7 +134,7 @@ impl Friction {
     }
 }
 
-/// Change of friction near rest: `s·A·e^{−|v|/v_s}` or `s·A·e^{−(v/v_s)²}`, with the direction of motion s = ±1.
+/// Change of friction near rest: `s·A_s·e^{−|v|/v_s}` or `s·A_s·e^{−(v/v_s)²}`, with the direction of motion s = ±1.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct NearRestEstimate {
     /// A \[N·m\]: friction at rest minus Coulomb friction.

@@ -65,15 +65,15 @@ pub struct GeometryCheck {
 /// fewer modes than were found, or if no modes were found.
 pub fn geometry_check(described: &Arm, found: &OutputError) -> Option<GeometryCheck> {
     let modes = found.arm.modes.len();
-    let figures = 1 + 2 * modes;
+    let estimates = 1 + 2 * modes;
     let shown = |arm: &ModalArm, i: usize| match i.checked_sub(1) {
         None => arm.inertia_kg_m2.ln(),
         Some(k) if k < modes => arm.modes[k].omega_rad_s.ln(),
         Some(k) => arm.modes[k - modes].stiffness_nm_per_rad.ln(),
     };
-    let variance = |of: &dyn Fn(&ModalArm) -> f64| found.figure(of).std.powi(2);
-    let own: Vec<f64> = (0..figures).map(|i| variance(&|arm| shown(arm, i))).collect();
-    let covariance = DMatrix::from_fn(figures, figures, |i, j| {
+    let variance = |of: &dyn Fn(&ModalArm) -> f64| found.estimate_of(of).std.powi(2);
+    let own: Vec<f64> = (0..estimates).map(|i| variance(&|arm| shown(arm, i))).collect();
+    let covariance = DMatrix::from_fn(estimates, estimates, |i, j| {
         if i == j {
             return own[i] + GEOMETRY_KNOWN * GEOMETRY_KNOWN;
         }
@@ -84,7 +84,7 @@ pub fn geometry_check(described: &Arm, found: &OutputError) -> Option<GeometryCh
         described,
         modes,
         weight,
-        found: DVector::from_fn(figures, |i, _| shown(&found.arm, i)),
+        found: DVector::from_fn(estimates, |i, _| shown(&found.arm, i)),
     };
     let as_described = problem.difference(None, 0.0)?;
     let mut explanations: Vec<Explanation> =
@@ -111,12 +111,12 @@ struct GeometryProblem<'a> {
     described: &'a Arm,
     modes: usize,
     weight: DMatrix<f64>,
-    /// Logarithms of the figures.
+    /// Logarithms of the estimates.
     found: DVector<f64>,
 }
 
 impl GeometryProblem<'_> {
-    /// Logarithms of the figures, described less found, where a number is e^x times what is described.
+    /// Logarithms of the estimates, described less found, where a number is e^x times what is described.
     fn difference(&self, quantity: Option<ArmQuantity>, x: f64) -> Option<DVector<f64>> {
         let factor = x.exp();
         let motor = match quantity {
@@ -143,7 +143,7 @@ impl GeometryProblem<'_> {
         difference.iter().all(|d| d.is_finite()).then_some(difference)
     }
 
-    /// The factor of one number that brings the figures nearest.
+    /// The factor of one number that brings the estimates nearest.
     fn explained(&self, quantity: ArmQuantity) -> Option<Explanation> {
         let at = |x: f64| self.difference(Some(quantity), x);
         let cost = |d: &DVector<f64>| d.dot(&(&self.weight * d));

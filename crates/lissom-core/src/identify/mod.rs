@@ -2,7 +2,7 @@
 //!
 //! [`identify`] does all steps and returns [`Identified`]. The methods can also be called alone on a [`Prepared`]
 //! campaign: [`motor_regression`], [`beam_regression`], [`constant_velocity`], [`least_squares`], [`output_error`],
-//! [`pair_figure`]. [`validate`] compares a result with other logs; [`equivalent`](fn@equivalent) computes the
+//! [`pair_estimate`]. [`validate`] compares a result with other logs; [`equivalent`](fn@equivalent) computes the
 //! equivalent arm of Section 4 of the 1989 report. What the logs do not support is refused with a [`Finding`].
 
 mod drive_estimates;
@@ -28,8 +28,8 @@ pub(crate) mod validation;
 
 pub use drive_estimates::{DriveEstimates, Method};
 pub use equivalent::{
-    Deviations, Equivalent, EquivalentArm, EquivalentBeam, EquivalentData, EquivalentError,
-    EquivalentRefusal, PartOutside, ResponseZero, StrainlessForm, equivalent, equivalent_arm,
+    Equivalent, EquivalentArm, EquivalentBeam, EquivalentData, EquivalentError, EquivalentRefusal,
+    PartOutside, ResponseZero, StdSource, StrainlessForm, equivalent, equivalent_arm,
     equivalent_beam, response_zeros,
 };
 pub use estimate::{Estimate, ModeEstimate, NORMAL_95};
@@ -56,7 +56,7 @@ pub use methods::regression::{
     LeftTorque, MissingKind, MissingTerm, MotorRegression, Moved, RunDifference, beam_regression,
     motor_regression,
 };
-pub use methods::third_harmonic::{PairFigure, ThirdHarmonic, mean_figure, pair_figure};
+pub use methods::third_harmonic::{PairEstimate, ThirdHarmonic, mean_estimate, pair_estimate};
 pub use options::{Effort, Options};
 pub use payload::LoadedArm;
 pub use pipeline::{IdentifyError, Stage, identify};
@@ -72,7 +72,7 @@ pub use responses::rational::{
 };
 pub use responses::response_point::ResponsePoint;
 pub use separability::{
-    Carried, Direction, DirectionPart, FigureKnown, RunShare, RunToAdd, Separability,
+    Carried, Direction, DirectionPart, ParameterCertainty, RunShare, RunToAdd, Separability,
 };
 pub use validation::{
     Cause, CauseKind, ChannelFit, ChannelResidual, Horizon, MovedBy, MovedMode, PredictedStretch,

@@ -39,12 +39,12 @@ impl OutputError {
     /// `[Feliu1989, Section 3, property 4]`
     pub fn with_load(&self, tip: usize, added_kg_m2: f64) -> Option<LoadedArm> {
         let arm = self.arm.with_load(tip, added_kg_m2)?;
-        // One that a deviation beside cannot be loaded so has no deviation.
-        let of = |k: usize, figure: fn((f64, f64)) -> f64| -> Estimate {
-            self.figure(|arm| {
+        // One that a standard error beside cannot be loaded so has no standard error.
+        let of = |k: usize, estimate: fn((f64, f64)) -> f64| -> Estimate {
+            self.estimate_of(|arm| {
                 let mode =
                     arm.with_load(tip, added_kg_m2).and_then(|a| a.clamped_modes().get(k).copied());
-                mode.map_or(f64::NAN, figure)
+                mode.map_or(f64::NAN, estimate)
             })
         };
         let mode = |k: usize| ModeEstimate {

@@ -26,7 +26,7 @@ use crate::identify::options::{Effort, Options};
 use crate::identify::prepare::prepared::Prepared;
 use crate::identify::prepare::run_analysis::RunKind;
 use crate::identify::responses::linear_models::LinearModels;
-use crate::identify::responses::models::{beam_model, figures_model, rigid_model};
+use crate::identify::responses::models::{beam_model, estimates_model, rigid_model};
 use crate::identify::responses::response_point::ResponsePoint;
 use crate::identify::responses::response_step::{ResponseTables, Responses};
 use crate::identify::thresholds::{
@@ -183,7 +183,7 @@ pub fn identify(
     let phases = slip_phase_solution(regression.as_ref(), friction_law.as_ref());
     let phases = phases.map(|(_, drive)| drive);
     let explained = regression.as_ref().zip(phases.as_ref());
-    let by_regression = figures_model(campaign, explained, beam_regression.as_ref());
+    let by_regression = estimates_model(campaign, explained, beam_regression.as_ref());
     let rigid = output_error.as_ref().and_then(|oe| rigid_model(campaign, oe));
     let Responses { points, motor_model, beam_model, findings: response_findings } =
         tables.with_models(replay, tips_model, by_regression, rigid);

@@ -14,7 +14,7 @@ use crate::replay::{Blocks, ModalArm, Parameter, Sampling, SensorNoise, Window, 
 /// ```
 ///
 /// p are the parameters, z the unknowns of a single window, ŷ the readings of each sensor at each sample as the replay
-/// predicts them, and σ the [standard deviation](SensorNoise::deviation) of their errors. `arm` and `windows` may be
+/// predicts them, and σ the [standard deviation](SensorNoise::standard error) of their errors. `arm` and `windows` may be
 /// those that the [output-error method](crate::identify::OutputError) has found, or may be known in advance. A
 /// parameter that the runs do not determine has an infinite variance. Rows and columns are in the order of
 /// `parameters`, in SI units.

@@ -4,15 +4,15 @@
 //! initial state and the zeros of the tips) are eliminated, the results are added over all windows and
 //! [inverted](inverse). [`propagated`] converts the covariance to the standard error of any function of the parameters.
 
+mod arm_parameter;
 mod expected;
-mod figure;
 mod inverse;
 mod propagated;
 mod reduced;
 pub(crate) mod thresholds;
 
+pub use arm_parameter::ArmParameter;
 pub use expected::{expected_covariance, growing_information};
-pub use figure::Figure;
 pub use inverse::{Inverse, covariance, inverse, inverse_root, inverted};
 pub use propagated::{along, beside, propagated, slopes};
 pub use reduced::{Reduced, normal_equations, without_own};

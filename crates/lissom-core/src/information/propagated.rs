@@ -17,31 +17,31 @@ pub fn beside(arm: &ModalArm, parameter: Parameter, step: f64) -> (f64, [ModalAr
     (step, [moved(step), moved(-step)])
 }
 
-/// Derivatives ∂figure/∂parameter at an arm, by central differences over `share` of the standard error of each
+/// Derivatives ∂parameter/∂parameter at an arm, by central differences over `share` of the standard error of each
 /// parameter in either direction; zero for a parameter with zero standard error.
 pub fn slopes(
     arm: &ModalArm,
     parameters: &[Parameter],
     covariance: &DMatrix<f64>,
     share: f64,
-    figure: impl Fn(&ModalArm) -> f64,
+    parameter: impl Fn(&ModalArm) -> f64,
 ) -> DVector<f64> {
     let slope = |(i, p): (usize, &Parameter)| {
         let (step, [above, below]) = beside(arm, *p, share * covariance[(i, i)].max(0.0).sqrt());
-        if step > 0.0 { (figure(&above) - figure(&below)) / (2.0 * step) } else { 0.0 }
+        if step > 0.0 { (parameter(&above) - parameter(&below)) / (2.0 * step) } else { 0.0 }
     };
     DVector::from_iterator(parameters.len(), parameters.iter().enumerate().map(slope))
 }
 
-/// Standard error √(gᵀ·C·g) of a function `figure` of the arm, with its [`slopes`] g and the covariance C.
+/// Standard error √(gᵀ·C·g) of a function `parameter` of the arm, with its [`slopes`] g and the covariance C.
 pub fn propagated(
     arm: &ModalArm,
     parameters: &[Parameter],
     covariance: &DMatrix<f64>,
     share: f64,
-    figure: impl Fn(&ModalArm) -> f64,
+    parameter: impl Fn(&ModalArm) -> f64,
 ) -> f64 {
-    along(&slopes(arm, parameters, covariance, share, figure), covariance)
+    along(&slopes(arm, parameters, covariance, share, parameter), covariance)
 }
 
 /// Standard error √(gᵀ·C·g) of a quantity with the slopes g and the covariance C.

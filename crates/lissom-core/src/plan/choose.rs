@@ -251,7 +251,7 @@ mod tests {
         Goal { wanted: vec![(along(0), 0.1), (along(1), 0.1)], within_s, pair: false }
     }
 
-    /// Each figure needs 100: two runs that show one figure each beat one that shows both slowly.
+    /// Each parameter needs 100: two runs that show one parameter each beat one that shows both slowly.
     #[test]
     fn the_least_time_is_chosen() {
         let choices = [choice(100.0, 0.0, 1.0), choice(0.0, 100.0, 1.0), choice(60.0, 60.0, 4.0)];
@@ -263,7 +263,7 @@ mod tests {
     }
 
     /// Against every choice that there is, of sets drawn at random: each run shows a direction or two of
-    /// three figures, and takes its time.
+    /// three parameters, and takes its time.
     #[test]
     fn little_time_is_lost_beside_the_best_of_all() {
         let mut next = uniform();

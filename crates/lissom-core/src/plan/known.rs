@@ -3,8 +3,8 @@
 use std::ops::Range;
 
 use super::loaded_information::LoadedJoint;
-use super::{PlanError, PlannedFigure, PlannedUnknown, Precision};
-use crate::information::Figure;
+use super::{PlanError, PlannedParameter, PlannedUnknown, Precision};
+use crate::information::ArmParameter;
 use crate::load::GravityLoad;
 use crate::plan::thresholds::MODE_FOLLOWED;
 use crate::record::{Campaign, Channels, Run};
@@ -97,28 +97,32 @@ impl<'a> KnownRig<'a> {
     }
 
     /// All parameters whose precision can be requested.
-    pub(super) fn figures(&self) -> Vec<PlannedFigure> {
-        let of_arm = Figure::of(&self.arm).into_iter().map(PlannedFigure::Arm);
-        of_arm.chain(self.gravity.map(|_| PlannedFigure::Gravity)).collect()
+    pub(super) fn parameters(&self) -> Vec<PlannedParameter> {
+        let of_arm = ArmParameter::of(&self.arm).into_iter().map(PlannedParameter::Arm);
+        of_arm.chain(self.gravity.map(|_| PlannedParameter::Gravity)).collect()
     }
 
     /// Value of a parameter in SI.
-    pub(super) fn value(&self, figure: PlannedFigure) -> f64 {
-        match figure {
-            PlannedFigure::Arm(figure) => figure.value(&self.arm),
-            PlannedFigure::Gravity => self.gravity.map_or(0.0, |load| load.amplitude_nm()),
+    pub(super) fn value(&self, parameter: PlannedParameter) -> f64 {
+        match parameter {
+            PlannedParameter::Arm(parameter) => parameter.value(&self.arm),
+            PlannedParameter::Gravity => self.gravity.map_or(0.0, |load| load.amplitude_nm()),
         }
     }
 
     /// Derivative of a parameter with respect to an unknown.
-    pub(super) fn slope(&self, figure: PlannedFigure, unknown: PlannedUnknown) -> f64 {
+    pub(super) fn slope(&self, parameter: PlannedParameter, unknown: PlannedUnknown) -> f64 {
         let share = |of: fn(&GravityLoad) -> f64| {
             self.gravity.map_or(0.0, |load| of(&load) / load.amplitude_nm())
         };
-        match (figure, unknown) {
-            (PlannedFigure::Arm(figure), PlannedUnknown::Arm(p)) => figure.slope(&self.arm, p),
-            (PlannedFigure::Gravity, PlannedUnknown::GravitySine) => share(|load| load.sine_nm),
-            (PlannedFigure::Gravity, PlannedUnknown::GravityCosine) => share(|load| load.cosine_nm),
+        match (parameter, unknown) {
+            (PlannedParameter::Arm(parameter), PlannedUnknown::Arm(p)) => {
+                parameter.slope(&self.arm, p)
+            }
+            (PlannedParameter::Gravity, PlannedUnknown::GravitySine) => share(|load| load.sine_nm),
+            (PlannedParameter::Gravity, PlannedUnknown::GravityCosine) => {
+                share(|load| load.cosine_nm)
+            }
             _ => 0.0,
         }
     }
@@ -164,10 +168,10 @@ fn parameters(channels: &Channels, arm: &ModalArm) -> Vec<Parameter> {
 
 impl Precision {
     /// Requested precision of a parameter.
-    pub(super) fn of_planned(&self, figure: PlannedFigure) -> f64 {
-        match figure {
-            PlannedFigure::Arm(figure) => self.of(figure),
-            PlannedFigure::Gravity => self.gravity,
+    pub(super) fn of_planned(&self, parameter: PlannedParameter) -> f64 {
+        match parameter {
+            PlannedParameter::Arm(parameter) => self.of(parameter),
+            PlannedParameter::Gravity => self.gravity,
         }
     }
 }

@@ -10,8 +10,8 @@ mod known;
 mod loaded_information;
 mod note;
 mod plan_text;
-mod planned_figure;
 mod planned_motion;
+mod planned_parameter;
 mod planner;
 mod sizing;
 mod table;
@@ -22,7 +22,7 @@ use nalgebra::DMatrix;
 use rayon::prelude::*;
 use thiserror::Error;
 
-pub use crate::information::Figure;
+pub use crate::information::ArmParameter;
 use crate::information::growing_information;
 use crate::plan::thresholds::{TRANSIENT_MOST_S, TRANSIENT_MOST_SHARE};
 use crate::replay::TURN_MOST;
@@ -31,9 +31,9 @@ pub use addition::{Addition, Bounds, additions};
 use choose::choose;
 use known::KnownRig;
 pub use note::PlanNote;
-pub use planned_figure::{PlannedFigure, PlannedUnknown};
 pub use planned_motion::PlannedMotion;
 use planned_motion::{Group, Reach, groups};
+pub use planned_parameter::{PlannedParameter, PlannedUnknown};
 use planner::Planner;
 use sizing::Limits;
 pub use sizing::Unfit;
@@ -138,7 +138,7 @@ pub struct PlannedRun {
     pub paired: bool,
     /// Reason for the run: the parameter that would miss its requested precision most without it (without both runs of a
     /// pair), and its relative standard error in this case. `None` if all requested precisions would still be reached.
-    pub without: Option<(PlannedFigure, f64)>,
+    pub without: Option<(PlannedParameter, f64)>,
 }
 
 impl PlannedRun {
@@ -148,13 +148,13 @@ impl PlannedRun {
         match self.without {
             None if self.paired => "for the third-harmonic method".to_owned(),
             None => "the requested precision does not depend on this run alone".to_owned(),
-            Some((figure, std)) if std >= 1.0 => {
-                format!("without {it}, {} cannot be identified", figure.name())
+            Some((parameter, std)) if std >= 1.0 => {
+                format!("without {it}, {} cannot be identified", parameter.name())
             }
-            Some((figure, std)) => {
+            Some((parameter, std)) => {
                 format!(
                     "without {it}, the standard error of {} would be {}",
-                    figure.name(),
+                    parameter.name(),
                     percent(std)
                 )
             }
@@ -173,7 +173,7 @@ pub fn percent(share: f64) -> String {
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Expected {
     /// The parameter.
-    pub figure: PlannedFigure,
+    pub parameter: PlannedParameter,
     /// Its rough value \[SI\].
     pub value: f64,
     /// Expected standard error, relative.

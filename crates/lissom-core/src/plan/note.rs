@@ -5,7 +5,7 @@ use std::fmt;
 
 use super::known::KnownRig;
 use super::sizing::Unfit;
-use super::{Candidate, Expected, Figure, PlannedFigure, percent};
+use super::{ArmParameter, Candidate, Expected, PlannedParameter, percent};
 use crate::rig::{JointFriction, Rig};
 
 /// A note of a plan.
@@ -78,7 +78,7 @@ impl fmt::Display for PlanNote {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             Self::Unreached { expected, within_s, needed_s, torque_share } => {
-                let name = expected.figure.name();
+                let name = expected.parameter.name();
                 if expected.std >= 1.0 {
                     write!(
                         f,
@@ -95,8 +95,8 @@ impl fmt::Display for PlanNote {
                     )?;
                 }
                 let Some(share) = torque_share else { return Ok(()) };
-                let where_at = match expected.figure {
-                    PlannedFigure::Arm(Figure::Viscous) => " at the highest speed",
+                let where_at = match expected.parameter {
+                    PlannedParameter::Arm(ArmParameter::Viscous) => " at the highest speed",
                     _ => "",
                 };
                 write!(f, "; its torque is {} of the largest torque{where_at}", percent(*share))

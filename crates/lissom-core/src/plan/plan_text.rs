@@ -16,7 +16,7 @@ impl fmt::Display for Plan {
         write!(f, "expected standard errors:")?;
         for e in &self.expected {
             let got = if e.std < 1.0 { percent(e.std) } else { "not found".to_owned() };
-            write!(f, "\n  {}: {got}, {} requested", e.figure.name(), percent(e.wanted))?;
+            write!(f, "\n  {}: {got}, {} requested", e.parameter.name(), percent(e.wanted))?;
         }
         for note in &self.notes {
             let kind = if note.is_warning() { "warning" } else { "note" };

@@ -5,8 +5,8 @@ use nalgebra::{DMatrix, DVector};
 use super::choose::{self, Choice, Chosen, Goal};
 use super::known::KnownRig;
 use super::{
-    BETWEEN_S, Candidate, Expected, Figure, Kinds, Plan, PlanError, PlanNote, PlannedFigure,
-    PlannedMotion, PlannedRun, Unfit, Wishes, note,
+    ArmParameter, BETWEEN_S, Candidate, Expected, Kinds, Plan, PlanError, PlanNote, PlannedMotion,
+    PlannedParameter, PlannedRun, Unfit, Wishes, note,
 };
 use crate::information::covariance;
 use crate::rig::Rig;
@@ -44,10 +44,10 @@ impl<'a> Planner<'a> {
         if shortest_s > wishes.within_s {
             return Err(PlanError::NoTime { within_s: wishes.within_s, shortest_s });
         }
-        let wanted = known.figures().into_iter().map(|figure| {
-            let slopes = unknowns.iter().map(|(of, _, size)| known.slope(figure, *of) * size);
-            let along = DVector::from_iterator(scale.len(), slopes) / known.value(figure);
-            (along, wishes.precision.of_planned(figure))
+        let wanted = known.parameters().into_iter().map(|parameter| {
+            let slopes = unknowns.iter().map(|(of, _, size)| known.slope(parameter, *of) * size);
+            let along = DVector::from_iterator(scale.len(), slopes) / known.value(parameter);
+            (along, wishes.precision.of_planned(parameter))
         });
         let goal = Goal {
             wanted: wanted.collect(),
@@ -66,14 +66,14 @@ impl<'a> Planner<'a> {
         let size = self.scale.len();
         let total = choose::information(&self.choices, chosen, size);
         let ratios = self.goal.ratios(&total);
-        let figures = self.known.figures();
-        let expected: Vec<Expected> = figures
+        let parameters = self.known.parameters();
+        let expected: Vec<Expected> = parameters
             .iter()
             .zip(&ratios)
-            .map(|(figure, ratio)| {
-                let wanted = self.wishes.precision.of_planned(*figure);
-                let value = self.known.value(*figure);
-                Expected { figure: *figure, value, std: ratio * wanted, wanted }
+            .map(|(parameter, ratio)| {
+                let wanted = self.wishes.precision.of_planned(*parameter);
+                let value = self.known.value(*parameter);
+                Expected { parameter: *parameter, value, std: ratio * wanted, wanted }
             })
             .collect();
         let mut runs: Vec<PlannedRun> = Vec::new();
@@ -111,11 +111,11 @@ impl<'a> Planner<'a> {
         total: &DMatrix<f64>,
         part: &DMatrix<f64>,
         expected: &[Expected],
-    ) -> Option<(PlannedFigure, f64)> {
+    ) -> Option<(PlannedParameter, f64)> {
         let ratios = self.goal.ratios(&(total - part));
         let then = expected.iter().zip(ratios).filter(|(_, ratio)| *ratio > 1.0);
         let worst = then.max_by(|a, b| a.1.total_cmp(&b.1));
-        worst.map(|(e, ratio)| (e.figure, ratio * e.wanted))
+        worst.map(|(e, ratio)| (e.parameter, ratio * e.wanted))
     }
 
     /// Notes about requested precisions that are not reached within the time.
@@ -127,21 +127,23 @@ impl<'a> Planner<'a> {
         let constant = self.rig.arm.motor.torque_constant_nm_per_a();
         let peak_nm = constant * used().map(|c| c.run.peak_current_a).fold(0.0, f64::max);
         let speed = used().map(|c| c.speed_rad_s).fold(0.0, f64::max);
-        let share = |figure: PlannedFigure| match figure {
-            PlannedFigure::Arm(Figure::Viscous) => Some(self.known.value(figure) * speed / peak_nm),
-            PlannedFigure::Arm(Figure::Coulomb) | PlannedFigure::Gravity => {
-                Some(self.known.value(figure) / peak_nm)
+        let share = |parameter: PlannedParameter| match parameter {
+            PlannedParameter::Arm(ArmParameter::Viscous) => {
+                Some(self.known.value(parameter) * speed / peak_nm)
             }
-            PlannedFigure::Arm(_) => None,
+            PlannedParameter::Arm(ArmParameter::Coulomb) | PlannedParameter::Gravity => {
+                Some(self.known.value(parameter) / peak_nm)
+            }
+            PlannedParameter::Arm(_) => None,
         };
         let missed = expected.iter().filter(|e| e.std > e.wanted);
         missed
             .map(|e| PlanNote::Unreached {
                 expected: *e,
                 within_s: self.wishes.within_s,
-                // Deviations fall with the root of the time.
+                // StdSource fall with the root of the time.
                 needed_s: time_s * (e.std / e.wanted).powi(2),
-                torque_share: share(e.figure),
+                torque_share: share(e.parameter),
             })
             .collect()
     }

@@ -1,6 +1,6 @@
 //! Requested precision of a plan, and its limits.
 
-use crate::information::Figure;
+use crate::information::ArmParameter;
 use crate::plan::thresholds::DAMPING_WISHED;
 
 /// Requested standard errors, relative to the parameters.
@@ -52,14 +52,14 @@ impl Precision {
     }
 
     /// Requested precision of a parameter.
-    pub fn of(&self, figure: Figure) -> f64 {
-        match figure {
-            Figure::Coulomb | Figure::Offset => self.coulomb,
-            Figure::Viscous => self.viscous,
-            Figure::Inertia => self.inertia,
-            Figure::Coupling => self.coupling,
-            Figure::Frequency(_) => self.frequency,
-            Figure::Damping(_) => self.damping,
+    pub fn of(&self, parameter: ArmParameter) -> f64 {
+        match parameter {
+            ArmParameter::Coulomb | ArmParameter::Offset => self.coulomb,
+            ArmParameter::Viscous => self.viscous,
+            ArmParameter::Inertia => self.inertia,
+            ArmParameter::Coupling => self.coupling,
+            ArmParameter::Frequency(_) => self.frequency,
+            ArmParameter::Damping(_) => self.damping,
         }
     }
 }

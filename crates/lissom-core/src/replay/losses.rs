@@ -2,10 +2,10 @@
 
 use super::noise::{Loss, SensorNoise, log_probability};
 
-/// Nodes of the table per deviation. Between them the logarithm and its slope go by cubics, off by
+/// Nodes of the table per standard error. Between them the logarithm and its slope go by cubics, off by
 /// less than 1e-8, and the curvature by a line, off by less than 1e-3.
 const NODES: f64 = 32.0;
-/// Deviations beyond a step's edge at which the table ends.
+/// StdSource beyond a step's edge at which the table ends.
 const BEYOND: f64 = 10.0;
 
 /// What a sensor's errors cost, see [`SensorNoise::loss`].

@@ -2,7 +2,7 @@
 
 use statrs::function::erf::{erf, erfc};
 
-/// Deviations beyond a step's edge from which on the tail is taken by its series.
+/// StdSource beyond a step's edge from which on the tail is taken by its series.
 const FAR: f64 = 20.0;
 /// Curvature is never taken below this share of its mean, so that a step inside which nothing is
 /// known does not vanish from the search.
@@ -25,7 +25,7 @@ pub struct SensorNoise {
 /// Cost of an error, with its derivatives by it.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Loss {
-    /// `−2·ln(P(e)/P(0))`: a square in deviations where there are no steps.
+    /// `−2·ln(P(e)/P(0))`: a square in standard errors where there are no steps.
     pub(super) cost: f64,
     /// `−d ln P/de`.
     pub(super) slope: f64,

@@ -215,7 +215,7 @@ impl<'a> Plan<'a> {
                 self.check(motion.motor_angle_rad(), k + 1)?;
             }
         }
-        Ok(self.figures(seed, sums, &motion))
+        Ok(self.estimates(seed, sums, &motion))
     }
 
     fn check(&self, angle_rad: f64, samples: usize) -> Result<(), RigError> {
@@ -227,7 +227,7 @@ impl<'a> Plan<'a> {
         Err(RigError::Unstable { angle_rad, bound_rad, time_s, state: vec![angle_rad] })
     }
 
-    fn figures(&self, seed: u64, sums: [[f64; BASIS]; 2], motion: &HeldMotion<'_>) -> NoisyRun {
+    fn estimates(&self, seed: u64, sums: [[f64; BASIS]; 2], motion: &HeldMotion<'_>) -> NoisyRun {
         let omega = self.batch.omega_rad_s;
         let [current, motor] = sums.map(|sums| {
             let x = self.normal * Vector5::from(sums);
@@ -365,7 +365,7 @@ impl<'a> Group<'a> {
         }
         let one = |lane: usize| self.sums.map(|sums| sums.map(|sum| sum.0[lane]));
         let lanes = self.seeds.iter().zip(&self.motions).enumerate();
-        Ok(lanes.map(|(i, (seed, m))| self.plan.figures(*seed, one(i), m)).collect())
+        Ok(lanes.map(|(i, (seed, m))| self.plan.estimates(*seed, one(i), m)).collect())
     }
 
     /// The loop over some samples.

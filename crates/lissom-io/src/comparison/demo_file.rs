@@ -20,7 +20,7 @@ pub struct DemoFile {
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct ComparisonEntry {
     /// Name of the parameter.
-    pub figure: String,
+    pub parameter: String,
     /// Unit of all its values.
     pub unit: String,
     /// Its value in the simulated arm.

@@ -15,7 +15,7 @@ pub struct FiguresFile {
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct ComparedCoulombEntry {
     /// Name of the method, with the direction of motion.
-    pub figure: String,
+    pub method: String,
     /// Value printed in Section 6.2.2 of the 1989 report; null if it prints none.
     pub printed_a: Option<f64>,
     /// Estimate from the virtual arm's logs; null if the method has none.

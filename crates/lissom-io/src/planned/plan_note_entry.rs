@@ -84,14 +84,14 @@ impl PlanNoteName {
 
 #[cfg(test)]
 mod tests {
-    use lissom_core::plan::{Expected, Figure, PlannedFigure, Unfit};
+    use lissom_core::plan::{ArmParameter, Expected, PlannedParameter, Unfit};
 
     use super::*;
 
     #[test]
     fn codes_are_those_of_the_library() {
-        let figure = PlannedFigure::Arm(Figure::Inertia);
-        let expected = Expected { figure, value: 1.0, std: 0.1, wanted: 0.01 };
+        let parameter = PlannedParameter::Arm(ArmParameter::Inertia);
+        let expected = Expected { parameter, value: 1.0, std: 0.1, wanted: 0.01 };
         let notes = [
             PlanNote::Unreached { expected, within_s: 60.0, needed_s: 600.0, torque_share: None },
             PlanNote::LeftOut { omega_rad_s: vec![100.0] },

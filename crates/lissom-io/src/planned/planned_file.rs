@@ -1,7 +1,7 @@
 //! The runs of a plan and their expected precision as a type: filled from a plan, written and read.
 
 use lissom_core::plan::{
-    Expected, Plan, PlannedFigure, PlannedMotion, PlannedRun, PlannedUnknown, Wishes,
+    Expected, Plan, PlannedMotion, PlannedParameter, PlannedRun, PlannedUnknown, Wishes,
 };
 use serde::{Deserialize, Serialize};
 
@@ -68,7 +68,7 @@ pub struct PlannedRunEntry {
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct WithoutRunEntry {
     /// Name of the parameter.
-    pub figure: String,
+    pub parameter: String,
     /// Its relative standard error without the run; null if it is unbounded.
     pub relative_std: Option<f64>,
 }
@@ -78,7 +78,7 @@ pub struct WithoutRunEntry {
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct ExpectedEntry {
     /// Name of the parameter.
-    pub figure: String,
+    pub parameter: String,
     /// Its value, computed from the arm.toml: N*m, N*m*s/rad, kg*m^2, N*m/rad, rad/s; damping 2*zeta*omega in 1/s.
     pub value: f64,
     /// Expected relative standard error; null if it is unbounded.
@@ -147,15 +147,15 @@ impl PlannedRunEntry {
 }
 
 impl WithoutRunEntry {
-    fn of((figure, relative_std): (PlannedFigure, f64)) -> Self {
-        Self { figure: figure.name(), relative_std: finite(relative_std) }
+    fn of((parameter, relative_std): (PlannedParameter, f64)) -> Self {
+        Self { parameter: parameter.name(), relative_std: finite(relative_std) }
     }
 }
 
 impl ExpectedEntry {
     fn of(expected: &Expected) -> Self {
         Self {
-            figure: expected.figure.name(),
+            parameter: expected.parameter.name(),
             value: expected.value,
             relative_std: finite(expected.std),
             wanted: expected.wanted,

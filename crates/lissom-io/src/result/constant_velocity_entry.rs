@@ -58,7 +58,7 @@ pub struct FrictionLineEntry {
     /// Whether a straight line describes them.
     pub shape: LineShapeName,
     /// Size of the quadratic term, or of the scatter (rms), in standard errors; null if a straight line describes them.
-    pub deviations: Option<f64>,
+    pub standard_errors: Option<f64>,
     /// The value extrapolated from the slowest third of the speeds.
     #[serde(flatten)]
     pub slowest: Refusable<SlowestKey>,
@@ -128,11 +128,13 @@ impl ConstantVelocityEntry {
 
 impl FrictionLineEntry {
     fn of(names: UnitNames, constant: f64, forward: bool, l: &FrictionLine) -> Self {
-        let (shape, deviations) = match l.shape {
+        let (shape, standard_errors) = match l.shape {
             LineShape::Unchecked => (LineShapeName::Unchecked, None),
             LineShape::Straight => (LineShapeName::Straight, None),
-            LineShape::Concave { deviations } => (LineShapeName::Concave, Some(deviations)),
-            LineShape::Convex { deviations } => (LineShapeName::Convex, Some(deviations)),
+            LineShape::Concave { standard_errors } => {
+                (LineShapeName::Concave, Some(standard_errors))
+            }
+            LineShape::Convex { standard_errors } => (LineShapeName::Convex, Some(standard_errors)),
             LineShape::Scattered { rms } => (LineShapeName::Scattered, Some(rms)),
         };
         Self {
@@ -143,7 +145,7 @@ impl FrictionLineEntry {
             points: l.points,
             speeds: l.speeds,
             shape,
-            deviations,
+            standard_errors,
             slowest: WithUnit::torque(names, constant, l.slowest),
         }
     }

@@ -2,7 +2,7 @@
 
 use lissom_core::Matrix;
 use lissom_core::identify::{
-    Deviations, Equivalent, EquivalentArm, Estimate, ResponseZero, Spurious, StrainlessForm,
+    Equivalent, EquivalentArm, Estimate, ResponseZero, Spurious, StdSource, StrainlessForm,
 };
 use serde::{Deserialize, Serialize};
 
@@ -61,7 +61,7 @@ pub struct EquivalentEntry {
     /// Residual relative to each response, rms.
     pub relative_residual: f64,
     /// Origin of the standard errors of the responses.
-    pub deviations: DeviationsName,
+    pub std_source: StdSourceName,
 }
 
 /// A mode of the equivalent arm.
@@ -187,7 +187,7 @@ pub struct ResponseZeroEntry {
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(rename_all = "snake_case")]
-pub enum DeviationsName {
+pub enum StdSourceName {
     /// They are measured.
     Measured,
     /// They are measured, but at least 0.2 % of the response (campaigns).
@@ -211,7 +211,7 @@ impl EquivalentEntry {
     /// The entry of an equivalent arm.
     pub fn of(names: UnitNames, found: &Equivalent) -> Self {
         let point = |i: usize| found.names[i].as_str();
-        let known = found.deviations != Deviations::FromResidual;
+        let known = found.std_source != StdSource::FromResidual;
         let arm = found.arm.as_ref();
         let state_space = arm.filter(|_| found.strainless.is_some()).map(|arm| {
             let points: Vec<&str> = found.points.iter().map(|i| point(*i)).collect();
@@ -238,10 +238,10 @@ impl EquivalentEntry {
             highest_rad_s: found.fit.range_rad_s.1,
             weighted_rms: known.then_some(found.fit.weighted_rms),
             relative_residual: found.relative_residual,
-            deviations: match found.deviations {
-                Deviations::Measured => DeviationsName::Measured,
-                Deviations::Floored => DeviationsName::Floored,
-                Deviations::FromResidual => DeviationsName::FromResidual,
+            std_source: match found.std_source {
+                StdSource::Measured => StdSourceName::Measured,
+                StdSource::Floored => StdSourceName::Floored,
+                StdSource::FromResidual => StdSourceName::FromResidual,
             },
         }
     }
@@ -283,14 +283,14 @@ impl SpuriousPoleEntry {
 }
 
 impl EquivalentTorqueEntry {
-    fn of(names: UnitNames, deviations_known: bool, arm: &EquivalentArm) -> Self {
+    fn of(names: UnitNames, std_known: bool, arm: &EquivalentArm) -> Self {
         Self {
             h: WithUnit::new(names, EstimateEntry::list(arm.h.iter())),
             h_motor: WithUnit::new(names, EstimateEntry::of(arm.h_motor)),
             inertia: WithUnit::new(names, EstimateEntry::of(arm.inertia)),
             viscous: WithUnit::new(names, EstimateEntry::of(arm.viscous)),
             delay_s: EstimateEntry::or_null(arm.delay_s),
-            weighted_rms: deviations_known.then_some(arm.weighted_rms),
+            weighted_rms: std_known.then_some(arm.weighted_rms),
         }
     }
 }

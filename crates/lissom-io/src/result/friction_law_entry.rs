@@ -94,7 +94,7 @@ pub struct LawCandidateEntry {
     /// Residual with the term relative to the residual without it.
     pub residual_ratio: f64,
     /// Improvement in slip phases that were left out of the fit, in standard errors.
-    pub paired_deviations: f64,
+    pub paired_standard_errors: f64,
     /// The same ratio in stretches of one kind (direction, speed, side of the travel) that were left out of the fit.
     pub stretch_ratio: f64,
     /// Friction at rest with the term, in the direction in which it is smaller.
@@ -151,7 +151,7 @@ impl LawCandidateEntry {
                 EstimateEntry::of(c.amplitude),
             ),
             residual_ratio: c.residual_ratio,
-            paired_deviations: c.paired,
+            paired_standard_errors: c.paired,
             stretch_ratio: c.stretch_ratio,
             at_rest: WithUnit::new(names, EstimateEntry::of(at_rest)),
             taken: c.taken,

@@ -44,9 +44,9 @@ pub use constant_velocity_entry::{
     ConstantVelocityEntry, FrictionLineEntry, LineShapeName, SteadyPointEntry,
 };
 pub use equivalent_file::{
-    DeviationsName, EquivalentBeamEntry, EquivalentEntry, EquivalentFile, EquivalentModeEntry,
+    EquivalentBeamEntry, EquivalentEntry, EquivalentFile, EquivalentModeEntry,
     EquivalentTorqueEntry, PointZerosEntry, ResponseZeroEntry, SpuriousName, SpuriousPoleEntry,
-    StrainlessEntry,
+    StdSourceName, StrainlessEntry,
 };
 pub(crate) use estimate_entry::finite;
 pub use estimate_entry::{BeamModeEntry, EstimateEntry};
@@ -79,8 +79,8 @@ pub use read_result::{ListedParameter, PHASE_KEY, ParameterList, read_result};
 pub use result_error::ResultError;
 pub use result_file::{BeamEntry, DriveEntry, ResultFile, RunEntry, RunKindName, SinusoidEntry};
 pub use separability_entry::{
-    CarriedFigureEntry, DirectionPartEntry, KnownFigureEntry, MotionKindName,
-    PrincipalDirectionEntry, RunShareEntry, RunToAddEntry, SeparabilityEntry,
+    DirectionPartEntry, MotionKindName, ParameterCertaintyEntry, PrincipalDirectionEntry,
+    RunEffectEntry, RunShareEntry, RunToAddEntry, SeparabilityEntry,
 };
 pub use thresholds_file::{BasisName, ThresholdEntry, ThresholdsFile};
 pub use unit_names::UnitNames;

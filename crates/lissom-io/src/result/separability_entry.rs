@@ -22,7 +22,7 @@ pub struct SeparabilityEntry {
     /// Condition number of the correlation matrix; null if some parameters cannot be separated.
     pub condition: Option<f64>,
     /// All parameters.
-    pub figures: Vec<KnownFigureEntry>,
+    pub parameters: Vec<ParameterCertaintyEntry>,
     /// Principal directions of the covariance, the least certain first.
     pub directions: Vec<PrincipalDirectionEntry>,
     /// Contribution of each run; only from the output-error method with two or more runs.
@@ -37,9 +37,9 @@ pub struct SeparabilityEntry {
 /// The certainty of a parameter.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
-pub struct KnownFigureEntry {
+pub struct ParameterCertaintyEntry {
     /// Name of the parameter.
-    pub figure: String,
+    pub parameter: String,
     /// Its relative standard error; null if the logs do not separate it from other parameters.
     pub relative_std: Option<f64>,
     /// Its relative standard error if all other parameters were known.
@@ -61,7 +61,7 @@ pub struct PrincipalDirectionEntry {
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct DirectionPartEntry {
     /// Name of the parameter.
-    pub figure: String,
+    pub parameter: String,
     /// Its component of the direction, as a vector of length one.
     pub weight: f64,
     /// Share of the parameter's variance along this direction.
@@ -79,21 +79,21 @@ pub struct RunShareEntry {
     /// Whether it differs most from the other runs, by so much that it is reported.
     pub stands_out: bool,
     /// Effect of the run on each parameter.
-    pub figures: Vec<CarriedFigureEntry>,
+    pub parameters: Vec<RunEffectEntry>,
 }
 
 /// Effect of a run on a parameter.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
-pub struct CarriedFigureEntry {
+pub struct RunEffectEntry {
     /// Name of the parameter.
-    pub figure: String,
+    pub parameter: String,
     /// Standard error without the run divided by that with it; null if the other runs do not show the parameter.
     pub std_growth_without: Option<f64>,
     /// Relative change of the estimate without the run.
     pub relative_change_without: Option<f64>,
     /// The same change in standard errors.
-    pub deviations: Option<f64>,
+    pub standard_errors: Option<f64>,
 }
 
 /// A run to add.
@@ -112,7 +112,7 @@ pub struct RunToAddEntry {
     /// Logged time.
     pub record_s: f64,
     /// The parameter whose standard error it reduces most.
-    pub figure: String,
+    pub parameter: String,
     /// Relative standard error of this parameter now.
     pub relative_std_now: Option<f64>,
     /// Relative standard error of this parameter with the run.
@@ -135,8 +135,8 @@ pub enum MotionKindName {
 impl SeparabilityEntry {
     /// The entry of a verdict.
     pub(crate) fn of(axis: Axis, names: UnitNames, found: &Separability) -> Self {
-        let known = found.figures.iter().map(|known| KnownFigureEntry {
-            figure: known.figure.name(),
+        let known = found.parameters.iter().map(|known| ParameterCertaintyEntry {
+            parameter: known.parameter.name(),
             relative_std: finite(known.std),
             relative_std_if_others_known: finite(known.alone),
         });
@@ -144,7 +144,7 @@ impl SeparabilityEntry {
             words: found.words(axis),
             source: ArmSourceName::of(found.source),
             condition: finite(found.condition),
-            figures: known.collect(),
+            parameters: known.collect(),
             directions: found.directions.iter().map(PrincipalDirectionEntry::of).collect(),
             runs: found.runs.iter().map(|run| RunShareEntry::of(found, run)).collect(),
             run_to_add: found.run_to_add.as_ref().map(|run| RunToAddEntry::of(names, run)),
@@ -156,7 +156,7 @@ impl SeparabilityEntry {
 impl PrincipalDirectionEntry {
     fn of(direction: &Direction) -> Self {
         let parts = direction.parts.iter().map(|p| DirectionPartEntry {
-            figure: p.figure.name(),
+            parameter: p.parameter.name(),
             weight: p.weight,
             share_of_variance: p.of_variance,
         });
@@ -166,17 +166,17 @@ impl PrincipalDirectionEntry {
 
 impl RunShareEntry {
     fn of(found: &Separability, run: &RunShare) -> Self {
-        let carried = run.figures.iter().map(|c| CarriedFigureEntry {
-            figure: c.figure.name(),
+        let carried = run.parameters.iter().map(|c| RunEffectEntry {
+            parameter: c.parameter.name(),
             std_growth_without: finite(c.growth),
             relative_change_without: finite(c.change),
-            deviations: finite(c.deviations),
+            standard_errors: finite(c.standard_errors),
         });
         Self {
             name: run.run.clone(),
             residual_beside_others: finite(run.residual),
             stands_out: found.stands_out() == Some(run),
-            figures: carried.collect(),
+            parameters: carried.collect(),
         }
     }
 }
@@ -198,7 +198,7 @@ impl RunToAddEntry {
             to_rad_s,
             amplitude: WithUnit::new(names, run.amplitude_rad),
             record_s: run.record_s,
-            figure: run.figure.name(),
+            parameter: run.parameter.name(),
             relative_std_now: finite(run.std_now),
             relative_std_then: finite(run.std_then),
         }

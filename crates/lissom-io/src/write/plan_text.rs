@@ -47,7 +47,7 @@ fn put(text: &mut String, plan: &Plan) -> fmt::Result {
         writeln!(
             text,
             "#   {}: {}, {} wanted",
-            e.figure.name(),
+            e.parameter.name(),
             percent(e.std),
             percent(e.wanted)
         )?;

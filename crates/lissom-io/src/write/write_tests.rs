@@ -3,7 +3,7 @@
 use std::path::Path;
 
 use lissom_core::plan::{
-    Expected, Figure, Plan, PlanNote, PlannedFigure, PlannedMotion, PlannedRun as Motion,
+    ArmParameter, Expected, Plan, PlanNote, PlannedMotion, PlannedParameter, PlannedRun as Motion,
 };
 use lissom_core::record::{Hold, TipQuantity};
 use proptest::prelude::*;
@@ -221,7 +221,7 @@ fn a_written_plan_is_read_as_it_was_made() {
         moved_rad: 0.14,
         stuck_share: 0.08,
         paired: false,
-        without: Some((PlannedFigure::Arm(Figure::Inertia), 0.02)),
+        without: Some((PlannedParameter::Arm(ArmParameter::Inertia), 0.02)),
     };
     let turns = |omega_rad_s: f64, periods: f64| periods * std::f64::consts::TAU / omega_rad_s;
     let plan = Plan {
@@ -234,7 +234,7 @@ fn a_written_plan_is_read_as_it_was_made() {
             run(PlannedMotion::Chirp { from_rad_s: 1.31, to_rad_s: 61.3, sweep_s: 20.0 }, 20.0),
         ],
         expected: vec![Expected {
-            figure: PlannedFigure::Arm(Figure::Coulomb),
+            parameter: PlannedParameter::Arm(ArmParameter::Coulomb),
             value: 0.03,
             std: 0.001,
             wanted: 0.005,

@@ -76,7 +76,7 @@ fn parameter(p: &ParameterScore) -> String {
         e.value,
         e.std,
         100.0 * p.error().unwrap_or(f64::NAN),
-        p.deviations().unwrap_or(f64::NAN),
+        p.standard_errors().unwrap_or(f64::NAN),
         if p.from_line { "(least squares) " } else { "" },
         p.warned_by.join(" ")
     )

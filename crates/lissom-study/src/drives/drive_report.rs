@@ -244,7 +244,7 @@ fn causes(all: &[Scored<'_>]) -> Vec<String> {
             let vouched: Vec<&ParameterScore> =
                 given.iter().copied().filter(|p| p.vouched()).collect();
             let off: Vec<f64> =
-                vouched.iter().filter_map(|p| p.deviations()).map(f64::abs).collect();
+                vouched.iter().filter_map(|p| p.standard_errors()).map(f64::abs).collect();
             let silent = mine
                 .iter()
                 .filter(|(_, s)| s.parameters.iter().any(ParameterScore::silently_wrong));
@@ -321,7 +321,7 @@ fn worst(all: &[Scored<'_>]) -> String {
         .into_iter()
         .filter(|(_, p)| p.vouched_but_for_law() && p.is_wrong())
         .collect();
-    let off = |p: &ParameterScore| p.deviations().map_or(f64::INFINITY, f64::abs);
+    let off = |p: &ParameterScore| p.standard_errors().map_or(f64::INFINITY, f64::abs);
     wrong.sort_by(|a, b| off(b.1).total_cmp(&off(a.1)));
     let rows: Vec<Vec<String>> = wrong
         .iter()
@@ -331,7 +331,7 @@ fn worst(all: &[Scored<'_>]) -> String {
             vec![
                 o.index.to_string(),
                 p.parameter.to_string(),
-                format!("{:+.1}", p.deviations().unwrap_or(f64::NAN)),
+                format!("{:+.1}", p.standard_errors().unwrap_or(f64::NAN)),
                 format!("{:+.2} %", 100.0 * p.error().unwrap_or(f64::NAN)),
                 p.bound_share().map_or_else(String::new, |b| format!("{:.3} %", 100.0 * b)),
                 if p.from_line { "least squares".to_owned() } else { method.to_owned() },

@@ -60,11 +60,11 @@ impl ParameterScore {
     /// More than five standard errors off.
     pub fn is_wrong(&self) -> bool {
         // An error that is NaN is as wrong as a large one.
-        self.deviations().is_some_and(|d| d.is_nan() || d.abs() > WRONG)
+        self.standard_errors().is_some_and(|d| d.is_nan() || d.abs() > WRONG)
     }
 
     /// Signed error in standard errors.
-    pub fn deviations(&self) -> Option<f64> {
+    pub fn standard_errors(&self) -> Option<f64> {
         self.estimate.map(|e| (e.value - self.truth) / e.std)
     }
 

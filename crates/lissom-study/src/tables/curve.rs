@@ -10,15 +10,15 @@ pub(super) fn section(outcome: &Outcome) -> String {
         scores(outcome).iter().map(|(_, s)| &s.curve[..]).filter(|c| !c.is_empty()).collect();
     let points: Vec<&CurveScore> = of_campaigns.iter().copied().flatten().collect();
     let errors: Vec<f64> = points.iter().map(|p| p.error.abs()).collect();
-    let deviations: Vec<f64> = points.iter().map(|p| p.deviations.abs()).collect();
+    let standard_errors: Vec<f64> = points.iter().map(|p| p.standard_errors.abs()).collect();
     let row = vec![
         of_campaigns.len().to_string(),
         points.len().to_string(),
         percent(median(&errors)),
         percent(quantile(&errors, 0.95)),
         Share::count(&points, |p| p.covers()).to_string(),
-        median(&deviations).map_or_else(|| "–".to_owned(), significant),
-        quantile(&deviations, 1.0).map_or_else(|| "–".to_owned(), significant),
+        median(&standard_errors).map_or_else(|| "–".to_owned(), significant),
+        quantile(&standard_errors, 1.0).map_or_else(|| "–".to_owned(), significant),
     ];
     let header = [
         "campaigns with a curve",

@@ -1,15 +1,15 @@
 //! The page about campaigns of another simulator.
 
-use super::figures::errors;
+use super::estimates::errors;
 use super::{drawn, limit, scores, worst};
-use crate::score::FigureScore;
+use crate::score::EstimateScore;
 use crate::statistics::{Share, quantile};
 use crate::study::{Independent, Study};
 
 /// The page about campaigns that another simulator made.
 pub fn report(study: &Study, found: &Independent) -> String {
     let all = scores(&found.outcome);
-    let silent = all.iter().filter(|(_, s)| s.figures.iter().any(FigureScore::silently_wrong));
+    let silent = all.iter().filter(|(_, s)| s.estimates.iter().any(EstimateScore::silently_wrong));
     let silent = Share { hits: silent.count(), of: all.len() };
     [
         include_str!("external.md").trim_end().replace("COUNT", &study.campaigns.to_string()),

@@ -3,9 +3,9 @@
 use super::markdown::{percent, significant, table};
 use super::responses::{CLOSER, silently_wrong};
 use super::{Outcome, scores};
-use crate::figure::Figure;
 use crate::law::Law;
-use crate::score::{FigureScore, PointScore, Score};
+use crate::score::{EstimateScore, PointScore, Score};
+use crate::scored_parameter::ScoredParameter;
 use crate::statistics::{Share, median, quantile};
 use crate::study::Study;
 
@@ -25,10 +25,10 @@ const LINEAR: f64 = 0.03;
 const FLAGGED: (f64, f64) = (0.9, 0.05);
 
 /// The largest allowed median error of a parameter.
-fn median_bar(figure: Figure) -> Option<f64> {
-    match figure {
-        Figure::Coulomb => Some(1e-3),
-        Figure::Inertia | Figure::Coupling => Some(2e-3),
+fn median_bar(parameter: ScoredParameter) -> Option<f64> {
+    match parameter {
+        ScoredParameter::Coulomb => Some(1e-3),
+        ScoredParameter::Inertia | ScoredParameter::Coupling => Some(2e-3),
         _ => None,
     }
 }
@@ -41,7 +41,7 @@ pub(super) fn section(studies: &[(Study, Outcome)]) -> String {
     for (study, outcome) in studies {
         let all: Vec<&Score> = scores(outcome).into_iter().map(|(_, score)| score).collect();
         if studies.len() == 1 && study.law == Law::None {
-            figures(&all, &mut goals);
+            estimates(&all, &mut goals);
             coverage(&all, &mut goals);
             limit(&all, &mut goals);
             responses(&all, &mut goals);
@@ -67,37 +67,43 @@ pub(super) fn section(studies: &[(Study, Outcome)]) -> String {
 }
 
 /// All scores of a parameter; for frequencies those of every mode.
-fn of(all: &[&Score], figure: Figure) -> Vec<FigureScore> {
-    let same = |f: &&FigureScore| match figure {
-        Figure::Frequency(_) => matches!(f.figure, Figure::Frequency(_)),
-        one => f.figure == one,
+fn of(all: &[&Score], parameter: ScoredParameter) -> Vec<EstimateScore> {
+    let same = |f: &&EstimateScore| match parameter {
+        ScoredParameter::Frequency(_) => matches!(f.parameter, ScoredParameter::Frequency(_)),
+        one => f.parameter == one,
     };
-    all.iter().flat_map(|s| s.figures.iter().filter(same).cloned()).collect()
+    all.iter().flat_map(|s| s.estimates.iter().filter(same).cloned()).collect()
 }
 
-fn name(figure: Figure) -> String {
-    match figure {
-        Figure::Frequency(_) => "every frequency".to_owned(),
+fn name(parameter: ScoredParameter) -> String {
+    match parameter {
+        ScoredParameter::Frequency(_) => "every frequency".to_owned(),
         one => one.to_string(),
     }
 }
 
-fn figures(all: &[&Score], goals: &mut Vec<Goal>) {
-    let every =
-        [Figure::Coulomb, Figure::Inertia, Figure::Coupling, Figure::Frequency(0), Figure::Viscous];
-    for figure in every {
-        let (mut found, name) = (of(all, figure), name(figure));
-        let only = if figure == Figure::Viscous { " without a warning" } else { "" };
-        if figure == Figure::Viscous {
-            found.retain(FigureScore::vouched);
+fn estimates(all: &[&Score], goals: &mut Vec<Goal>) {
+    let every = [
+        ScoredParameter::Coulomb,
+        ScoredParameter::Inertia,
+        ScoredParameter::Coupling,
+        ScoredParameter::Frequency(0),
+        ScoredParameter::Viscous,
+    ];
+    for parameter in every {
+        let (mut found, name) = (of(all, parameter), name(parameter));
+        let only = if parameter == ScoredParameter::Viscous { " without a warning" } else { "" };
+        if parameter == ScoredParameter::Viscous {
+            found.retain(EstimateScore::vouched);
         }
-        let errors: Vec<f64> = found.iter().filter_map(FigureScore::error).map(f64::abs).collect();
-        if let Some(bar) = figure.bar() {
+        let errors: Vec<f64> =
+            found.iter().filter_map(EstimateScore::error).map(f64::abs).collect();
+        if let Some(bar) = parameter.bar() {
             let within = Share::count(&found, |f| f.error().is_some_and(|e| e.abs() <= bar));
             let asked = format!("{name} within {} in 95 % of the cases{only}", percent(Some(bar)));
             goals.push((asked, within.to_string(), Some(within.value() >= CAMPAIGNS)));
         }
-        if let Some(bar) = median_bar(figure) {
+        if let Some(bar) = median_bar(parameter) {
             let middle = median(&errors);
             let asked = format!("{name}: median error at most {}", percent(Some(bar)));
             goals.push((asked, percent(middle), Some(middle.is_some_and(|m| m <= bar))));
@@ -106,12 +112,19 @@ fn figures(all: &[&Score], goals: &mut Vec<Goal>) {
 }
 
 fn coverage(all: &[&Score], goals: &mut Vec<Goal>) {
-    let every =
-        [Figure::Coulomb, Figure::Inertia, Figure::Coupling, Figure::Viscous, Figure::Frequency(0)];
-    for figure in every {
-        let covered: Vec<bool> = of(all, figure).iter().filter_map(FigureScore::covers).collect();
+    let every = [
+        ScoredParameter::Coulomb,
+        ScoredParameter::Inertia,
+        ScoredParameter::Coupling,
+        ScoredParameter::Viscous,
+        ScoredParameter::Frequency(0),
+    ];
+    for parameter in every {
+        let covered: Vec<bool> =
+            of(all, parameter).iter().filter_map(EstimateScore::covers).collect();
         let share = Share::count(&covered, |c| *c);
-        let asked = format!("95 % intervals of {} contain the truth in 93 to 97 %", name(figure));
+        let asked =
+            format!("95 % intervals of {} contain the truth in 93 to 97 %", name(parameter));
         let met = (COVERAGE.0..=COVERAGE.1).contains(&share.value());
         goals.push((asked, share.to_string(), Some(met)));
     }
@@ -119,10 +132,15 @@ fn coverage(all: &[&Score], goals: &mut Vec<Goal>) {
 
 /// Intervals and variances compared with the Cramér-Rao bound.
 fn limit(all: &[&Score], goals: &mut Vec<Goal>) {
-    let every =
-        [Figure::Coulomb, Figure::Inertia, Figure::Coupling, Figure::Viscous, Figure::Frequency(0)];
-    for figure in every {
-        let (found, name) = (of(all, figure), name(figure));
+    let every = [
+        ScoredParameter::Coulomb,
+        ScoredParameter::Inertia,
+        ScoredParameter::Coupling,
+        ScoredParameter::Viscous,
+        ScoredParameter::Frequency(0),
+    ];
+    for parameter in every {
+        let (found, name) = (of(all, parameter), name(parameter));
         let mut goal = |asked: String, found: Option<f64>| {
             let shown = found.map_or_else(|| "–".to_owned(), significant);
             goals.push((asked, shown, Some(found.is_some_and(|v| v <= BEYOND_BOUND))));
@@ -173,7 +191,7 @@ fn silence(all: &[&Score], goals: &mut Vec<Goal>) {
 
 /// Campaigns with a silently wrong parameter.
 fn silent(all: &[&Score]) -> Share {
-    Share::count(all, |s| s.figures.iter().any(FigureScore::silently_wrong))
+    Share::count(all, |s| s.estimates.iter().any(EstimateScore::silently_wrong))
 }
 
 fn law(law: Law, all: &[&Score], goals: &mut Vec<Goal>) {
@@ -185,10 +203,11 @@ fn law(law: Law, all: &[&Score], goals: &mut Vec<Goal>) {
     if law == Law::None {
         return;
     }
-    let linear = [Figure::Inertia, Figure::Coupling, Figure::Frequency(0)];
+    let linear =
+        [ScoredParameter::Inertia, ScoredParameter::Coupling, ScoredParameter::Frequency(0)];
     let sound = Share::count(all, |s| {
-        let good = |figure: &Figure| {
-            s.of(*figure).and_then(FigureScore::error).is_some_and(|e| e.abs() <= LINEAR)
+        let good = |parameter: &ScoredParameter| {
+            s.of(*parameter).and_then(EstimateScore::error).is_some_and(|e| e.abs() <= LINEAR)
         };
         linear.iter().all(good)
     });

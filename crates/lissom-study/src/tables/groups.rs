@@ -2,8 +2,8 @@
 
 use super::markdown::{percent, table};
 use super::{Outcome, scores};
-use crate::figure::Figure;
-use crate::score::{FigureScore, Score};
+use crate::score::{EstimateScore, Score};
+use crate::scored_parameter::ScoredParameter;
 use crate::statistics::{Share, median, quantile};
 use crate::stratum::Kind;
 use crate::study::Scored;
@@ -11,8 +11,13 @@ use crate::study::Scored;
 /// A part of the campaigns: its name and the condition for belonging to it.
 type Group = (String, Box<dyn Fn(&Scored) -> bool>);
 
-const FIGURES: [Figure; 5] =
-    [Figure::Coulomb, Figure::Inertia, Figure::Coupling, Figure::Viscous, Figure::Frequency(0)];
+const FIGURES: [ScoredParameter; 5] = [
+    ScoredParameter::Coulomb,
+    ScoredParameter::Inertia,
+    ScoredParameter::Coupling,
+    ScoredParameter::Viscous,
+    ScoredParameter::Frequency(0),
+];
 
 pub(super) fn section(outcome: &Outcome) -> String {
     let all = scores(outcome);
@@ -41,9 +46,10 @@ pub(super) fn section(outcome: &Outcome) -> String {
 /// Shares of the intervals that contain the truth.
 fn held(masses: usize, all: &[(&Scored, &Score)]) -> Vec<String> {
     let mut cells = vec![format!("n = {masses}")];
-    for figure in FIGURES {
+    for parameter in FIGURES {
         let of = all.iter().filter(|(s, _)| s.stratum.masses == masses);
-        let covered: Vec<bool> = of.filter_map(|(_, score)| score.of(figure)?.covers()).collect();
+        let covered: Vec<bool> =
+            of.filter_map(|(_, score)| score.of(parameter)?.covers()).collect();
         cells.push(Share::count(&covered, |c| *c).to_string());
     }
     cells
@@ -52,10 +58,10 @@ fn held(masses: usize, all: &[(&Scored, &Score)]) -> Vec<String> {
 fn row((name, belongs): &Group, all: &[(&Scored, &Score)]) -> Vec<String> {
     let of: Vec<&Score> = all.iter().filter(|(s, _)| belongs(s)).map(|(_, score)| *score).collect();
     let mut cells = vec![name.clone(), of.len().to_string()];
-    for figure in FIGURES {
-        let figures: Vec<&FigureScore> = of.iter().filter_map(|s| s.of(figure)).collect();
-        let errors: Vec<f64> = figures.iter().filter_map(|f| f.error()).map(f64::abs).collect();
-        let refused = Share::count(&figures, |f| f.estimate.is_none());
+    for parameter in FIGURES {
+        let estimates: Vec<&EstimateScore> = of.iter().filter_map(|s| s.of(parameter)).collect();
+        let errors: Vec<f64> = estimates.iter().filter_map(|f| f.error()).map(f64::abs).collect();
+        let refused = Share::count(&estimates, |f| f.estimate.is_none());
         cells.push(format!(
             "{} / {} ({})",
             percent(median(&errors)),
@@ -63,7 +69,8 @@ fn row((name, belongs): &Group, all: &[(&Scored, &Score)]) -> Vec<String> {
             percent(Some(refused.value()).filter(|_| refused.of > 0))
         ));
     }
-    let silent = of.iter().filter(|s| s.figures.iter().any(FigureScore::silently_wrong)).count();
+    let silent =
+        of.iter().filter(|s| s.estimates.iter().any(EstimateScore::silently_wrong)).count();
     cells.push(silent.to_string());
     cells
 }

@@ -4,8 +4,8 @@ use std::collections::BTreeMap;
 
 use super::markdown::{percent, table};
 use super::{Outcome, scores};
-use crate::figure::Figure;
 use crate::score::Score;
+use crate::scored_parameter::ScoredParameter;
 use crate::statistics::{Share, median, quantile};
 use crate::study::Study;
 
@@ -49,20 +49,20 @@ fn command(studies: &[(Study, Outcome)]) -> String {
 
 fn row((study, outcome): &(Study, Outcome)) -> Vec<String> {
     let all: Vec<&Score> = scores(outcome).into_iter().map(|(_, score)| score).collect();
-    let errors = |figure: Figure| -> Vec<f64> {
-        all.iter().filter_map(|s| s.of(figure)?.error()).map(f64::abs).collect()
+    let errors = |parameter: ScoredParameter| -> Vec<f64> {
+        all.iter().filter_map(|s| s.of(parameter)?.error()).map(f64::abs).collect()
     };
-    let cell = |figure: Figure| {
-        let errors = errors(figure);
+    let cell = |parameter: ScoredParameter| {
+        let errors = errors(parameter);
         format!("{} / {}", percent(median(&errors)), percent(quantile(&errors, 0.95)))
     };
     vec![
         study.law.to_string(),
         all.len().to_string(),
-        cell(Figure::Inertia),
-        cell(Figure::Coupling),
-        cell(Figure::Frequency(0)),
-        cell(Figure::Coulomb),
+        cell(ScoredParameter::Inertia),
+        cell(ScoredParameter::Coupling),
+        cell(ScoredParameter::Frequency(0)),
+        cell(ScoredParameter::Coulomb),
         Share::count(&all, |s| !s.law_alarms().is_empty()).to_string(),
     ]
 }

@@ -2,8 +2,8 @@
 
 mod curve;
 mod draws;
+mod estimates;
 mod external;
-mod figures;
 mod goals;
 mod groups;
 mod laws;
@@ -28,7 +28,7 @@ pub fn report(studies: &[(Study, Outcome)]) -> String {
         [(study, outcome)] if study.law == Law::None => vec![
             preamble(study),
             goals::section(studies),
-            figures::section(study, outcome),
+            estimates::section(study, outcome),
             limit::section(outcome),
             responses::section(outcome),
             curve::section(outcome),

@@ -64,12 +64,12 @@ fn circles(points: &[&PointScore], outcome: &Outcome) -> String {
         let of = |p: &&&PointScore| p.vouched && p.sinusoidal == *sinusoidal;
         let vouched: Vec<&PointScore> = points.iter().filter(of).copied().collect();
         let covered: Vec<bool> = vouched.iter().filter_map(|p| p.covers()).collect();
-        let deviations: Vec<f64> = vouched.iter().filter_map(|p| p.deviations).collect();
+        let standard_errors: Vec<f64> = vouched.iter().filter_map(|p| p.standard_errors).collect();
         vec![
             (*name).to_owned(),
             vouched.len().to_string(),
             Share::count(&covered, |c| *c).to_string(),
-            median(&deviations).map_or_else(|| "–".to_owned(), significant),
+            median(&standard_errors).map_or_else(|| "–".to_owned(), significant),
         ]
     };
     let all: Vec<&Score> = scores(outcome).into_iter().map(|(_, score)| score).collect();

@@ -2,7 +2,7 @@
 
 use super::markdown::{percent, significant, table};
 use super::{Outcome, scores};
-use crate::score::FigureScore;
+use crate::score::EstimateScore;
 use crate::study::Scored;
 
 /// Campaigns in each list.
@@ -10,21 +10,21 @@ const SHOWN: usize = 10;
 
 pub(super) fn section(outcome: &Outcome) -> String {
     let all = scores(outcome);
-    let mut worst: Vec<(f64, &Scored, &FigureScore)> = all
+    let mut worst: Vec<(f64, &Scored, &EstimateScore)> = all
         .iter()
         .filter_map(|(scored, score)| {
-            let far = |f: &FigureScore| Some(f.error()?.abs() / f.figure.bar()?);
-            let figures = score.figures.iter().filter_map(|f| Some((far(f)?, *scored, f)));
-            figures.max_by(|a, b| a.0.total_cmp(&b.0))
+            let far = |f: &EstimateScore| Some(f.error()?.abs() / f.parameter.bar()?);
+            let estimates = score.estimates.iter().filter_map(|f| Some((far(f)?, *scored, f)));
+            estimates.max_by(|a, b| a.0.total_cmp(&b.0))
         })
         .collect();
     worst.sort_by(|a, b| b.0.total_cmp(&a.0));
     let worst: Vec<_> = worst.iter().take(SHOWN).map(|(_, s, f)| row(s, f)).collect();
-    let mut silent: Vec<(f64, &Scored, &FigureScore)> = all
+    let mut silent: Vec<(f64, &Scored, &EstimateScore)> = all
         .iter()
         .flat_map(|(scored, score)| {
-            let wrong = score.figures.iter().filter(|f| f.silently_wrong());
-            wrong.map(|f| (f.deviations().map_or(0.0, f64::abs), *scored, f))
+            let wrong = score.estimates.iter().filter(|f| f.silently_wrong());
+            wrong.map(|f| (f.standard_errors().map_or(0.0, f64::abs), *scored, f))
         })
         .collect();
     silent.sort_by(|a, b| b.0.total_cmp(&a.0));
@@ -59,7 +59,7 @@ pub(super) fn section(outcome: &Outcome) -> String {
     )
 }
 
-fn row(scored: &Scored, figure: &FigureScore) -> Vec<String> {
+fn row(scored: &Scored, parameter: &EstimateScore) -> Vec<String> {
     let stratum = &scored.stratum;
     vec![
         scored.index.to_string(),
@@ -70,9 +70,9 @@ fn row(scored: &Scored, figure: &FigureScore) -> Vec<String> {
         format!("{:.2} ms", 1e3 * stratum.sample_time_s),
         percent(Some(scored.coulomb_share)),
         percent(Some(scored.stuck_share)),
-        figure.figure.to_string(),
-        percent(figure.error()),
-        figure.deviations().map_or_else(|| "–".to_owned(), significant),
-        if figure.warned { "yes" } else { "no" }.to_owned(),
+        parameter.parameter.to_string(),
+        percent(parameter.error()),
+        parameter.standard_errors().map_or_else(|| "–".to_owned(), significant),
+        if parameter.warned { "yes" } else { "no" }.to_owned(),
     ]
 }

@@ -10,7 +10,7 @@ use crate::identify::responses::rational::{MotorData, SharedPoles, Spurious};
 
 /// Origin of the standard errors of responses.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Deviations {
+pub enum StdSource {
     /// Measured.
     Measured,
     /// Measured, and at least a share of the response.
@@ -31,7 +31,7 @@ pub struct EquivalentData {
     /// θ_m per command, corrected for friction. Without it only Â and B̂ (step 5) are computed.
     pub motor: Option<MotorData>,
     /// Origin of the standard errors.
-    pub deviations: Deviations,
+    pub std_source: StdSource,
 }
 
 /// An equivalent arm, with the data that show how far it is valid.
@@ -63,7 +63,7 @@ pub struct Equivalent {
     /// Residual of the points' responses with all poles, relative to the response, rms \[1\].
     pub relative_residual: f64,
     /// Origin of the standard errors.
-    pub deviations: Deviations,
+    pub std_source: StdSource,
     /// Findings about the arm.
     pub findings: Vec<Finding>,
 }

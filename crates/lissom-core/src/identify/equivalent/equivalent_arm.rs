@@ -54,10 +54,10 @@ pub struct EquivalentArm {
 /// Computes the whole equivalent arm from the responses of points with shared poles and the motor's response corrected
 /// for friction: steps 5 and 6 of Section 4.
 ///
-/// Once the poles are known, the torque of the motor per angle is linear in J, V and c_k (step 6(c)). With R, the gains
-/// of the points at rest by mode, `Ĥ = −cᵀ·R⁻¹` and `ĥ_{n+1} = Σ c_k`, which is the result of step 6(d) in exact
+/// Once the poles are known, the torque of the motor per angle is linear in J, V and c_k (step 6(c)). With ρ, the gains
+/// of the points at rest by mode, `Ĥ = −cᵀ·ρ⁻¹` and `ĥ_{n+1} = Σ c_k`, which is the result of step 6(d) in exact
 /// arithmetic. Standard errors are to first order in both covariances; errors of the poles count in c_k, too. `Ĥ·1 + ĥ`
-/// is zero only as far as R·1 is one: see [`EquivalentArm::strainless`].
+/// is zero only as far as ρ·1 is one: see [`EquivalentArm::strainless`].
 ///
 /// # Errors
 /// Those of [`equivalent_beam`]; [`EquivalentError::MotorTooFew`] if the motor's response has too few frequencies;
@@ -95,14 +95,14 @@ pub(super) fn arm_below(
         .ok_or(EquivalentError::MotorTooFew { frequencies, unknowns })?;
     let covariance = joined(fit, &coupled);
     let first = fit.covariance.nrows();
-    let figure = |i: usize| Estimate {
+    let estimate = |i: usize| Estimate {
         value: coupled.value[i],
         std: covariance[(first + i, first + i)].max(0.0).sqrt(),
     };
     let c = coupled.value.rows(2, modes).into_owned();
     let inverse = &beam.inverse;
     let ModalForm { h, h_motor, .. } = ModalForm::new(&beam.gains, inverse, &beam.squares, &c);
-    // dĤ = −dcᵀ·R⁻¹ − Ĥ·dR·R⁻¹.
+    // dĤ = −dcᵀ·ρ⁻¹ − Ĥ·dR·ρ⁻¹.
     let slopes: Vec<DVector<f64>> = (0..covariance.nrows())
         .map(|unknown| match unknown.checked_sub(first + 2) {
             Some(k) => -inverse.row(k).transpose(),
@@ -118,9 +118,9 @@ pub(super) fn arm_below(
         poles: fit.poles.clone(),
         h: h.iter().enumerate().map(|(i, &value)| Estimate { value, std: h_std(i) }).collect(),
         h_motor: Estimate { value: h_motor, std: h_motor_std },
-        coupling: (0..modes).map(|k| figure(2 + k)).collect(),
-        inertia: figure(0),
-        viscous: figure(1),
+        coupling: (0..modes).map(|k| estimate(2 + k)).collect(),
+        inertia: estimate(0),
+        viscous: estimate(1),
         weighted_rms: coupled.weighted_rms,
         torque_per_command: motor.torque_per_command,
         covariance,

@@ -1,6 +1,6 @@
 //! Findings about an equivalent arm.
 
-use crate::identify::equivalent::data::{Deviations, Equivalent, EquivalentData};
+use crate::identify::equivalent::data::{Equivalent, EquivalentData, StdSource};
 use crate::identify::equivalent::equivalent_arm::EquivalentArm;
 use crate::identify::equivalent::equivalent_error::EquivalentError;
 use crate::identify::equivalent::thresholds::{
@@ -38,7 +38,7 @@ fn of_motor(
     findings: &mut Vec<FindingKind>,
 ) {
     let (share, share_of_points) = (left_of_motor(data, arm), whole.relative_residual);
-    let known = data.deviations != Deviations::FromResidual;
+    let known = data.std_source != StdSource::FromResidual;
     let misfit = if known {
         arm.weighted_rms > MISFIT
     } else {
@@ -92,15 +92,15 @@ pub(super) fn findings(
     }
     of_phase(whole, &mut findings);
     let rms_standard_errors = whole.fit.weighted_rms;
-    let known = data.deviations != Deviations::FromResidual;
+    let known = data.std_source != StdSource::FromResidual;
     if known && rms_standard_errors > MISFIT {
         findings.push(EquivalentFinding::EquivalentMisfit { rms_standard_errors }.into());
-    } else if data.deviations == Deviations::Measured && rms_standard_errors < ERRORS_TOO_LARGE {
+    } else if data.std_source == StdSource::Measured && rms_standard_errors < ERRORS_TOO_LARGE {
         findings.push(EquivalentFinding::EquivalentDeviationsLarge { rms_standard_errors }.into());
     }
     if let Some(arm) = &whole.arm {
         of_motor(data, whole, arm, &mut findings);
-        let negative = named(arm).into_iter().filter(|(_, figure)| figure.is_negative());
+        let negative = named(arm).into_iter().filter(|(_, estimate)| estimate.is_negative());
         let parameters: Vec<String> = negative.map(|(name, _)| name).collect();
         if !parameters.is_empty() {
             findings.push(EquivalentMotorFinding::EquivalentImplausible { parameters }.into());
@@ -127,7 +127,7 @@ fn of_phase(whole: &Equivalent, findings: &mut Vec<FindingKind>) {
                 None => EquivalentFinding::EquivalentImaginaryPart {
                     point,
                     share: part.share,
-                    standard_errors: part.deviations,
+                    standard_errors: part.standard_errors,
                 },
                 Some(delay_s) => EquivalentFinding::EquivalentDelay { point, delay_s },
             }

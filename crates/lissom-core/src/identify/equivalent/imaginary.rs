@@ -2,7 +2,7 @@
 
 use num_complex::Complex64;
 
-use crate::identify::equivalent::data::{Deviations, EquivalentData};
+use crate::identify::equivalent::data::{EquivalentData, StdSource};
 use crate::identify::equivalent::refusal::{EquivalentRefusal, PartOutside};
 use crate::identify::equivalent::thresholds::{
     IMAGINARY_PRESENT, IMAGINARY_UNLIKE, NOT_OF_AN_ARM, PHASE_SIGN_CERTAIN,
@@ -26,10 +26,10 @@ pub(super) fn parts(
         .then(|| fit_shared_poles(&data.omega_rad_s, &data.outputs, beams, damping).ok());
     let model = refitted.flatten();
     let model = model.as_ref().unwrap_or(fit);
-    // What the deviations are, where they are not known.
-    let spread = match data.deviations {
-        Deviations::FromResidual => fit.weighted_rms,
-        Deviations::Measured | Deviations::Floored => 1.0,
+    // What the standard errors are, where they are not known.
+    let spread = match data.std_source {
+        StdSource::FromResidual => fit.weighted_rms,
+        StdSource::Measured | StdSource::Floored => 1.0,
     };
     let (mut told, mut worst): (Vec<PartOutside>, Option<PartOutside>) = (Vec::new(), None);
     for (output, responses) in data.outputs.iter().enumerate() {
@@ -41,7 +41,7 @@ pub(super) fn parts(
         let left: Vec<Left> = data.omega_rad_s.iter().zip(responses).map(left).collect();
         let (imaginary, real) = (rms(&left, |d| d.im), rms(&left, |d| d.re));
         let unlike =
-            data.deviations == Deviations::FromResidual && imaginary > IMAGINARY_UNLIKE * real;
+            data.std_source == StdSource::FromResidual && imaginary > IMAGINARY_UNLIKE * real;
         let clear = imaginary > real && (imaginary > IMAGINARY_PRESENT || unlike);
         let late = fit.delays_s.get(output).copied().flatten();
         let late = late.filter(|late| late.value.abs() > IMAGINARY_PRESENT * late.std);
@@ -51,7 +51,7 @@ pub(super) fn parts(
         let part = PartOutside {
             name: data.names.get(output).cloned().unwrap_or_default(),
             share: share(&left),
-            deviations: (data.deviations != Deviations::FromResidual).then_some(imaginary),
+            standard_errors: (data.std_source != StdSource::FromResidual).then_some(imaginary),
             delay_s: late,
         };
         let larger = worst.as_ref().is_none_or(|w| w.share < part.share);

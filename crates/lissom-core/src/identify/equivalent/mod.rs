@@ -4,7 +4,6 @@
 use nalgebra::{DMatrix, DVector};
 
 mod data;
-mod deviations;
 mod equivalent_arm;
 pub(crate) mod equivalent_error;
 mod findings;
@@ -12,12 +11,13 @@ mod imaginary;
 pub(crate) mod refusal;
 mod responses;
 mod sound;
+mod standard_errors;
 pub(crate) mod thresholds;
 mod turned_round;
 mod whole;
 mod zeros;
 
-pub use data::{Deviations, Equivalent, EquivalentData};
+pub use data::{Equivalent, EquivalentData, StdSource};
 pub use equivalent_arm::{EquivalentArm, equivalent_arm};
 pub use equivalent_error::EquivalentError;
 pub use refusal::{EquivalentRefusal, PartOutside};
@@ -40,13 +40,13 @@ pub struct EquivalentBeam {
     pub b: DVector<f64>,
     /// Standard errors of the elements of B̂ \[1/s²\].
     pub b_std: DVector<f64>,
-    /// R: ρ_ik of point i in mode k.
+    /// ρ: ρ_ik of point i in mode k.
     gains: DMatrix<f64>,
-    /// R⁻¹.
+    /// ρ⁻¹.
     inverse: DMatrix<f64>,
     /// ω_k² of each mode.
     squares: DVector<f64>,
-    /// R with rows that add up to one.
+    /// ρ with rows that add up to one.
     completed: DMatrix<f64>,
     /// Rows whose last gain was given what they lacked.
     given_to_last: Vec<bool>,
@@ -120,11 +120,11 @@ fn with_sum_of_one(fit: &SharedPoles, gains: &DMatrix<f64>) -> (DMatrix<f64>, Ve
 
 /// Computes Â and B̂ of (17) from transfer functions with shared poles.
 ///
-/// ρ_ik is the static gain of point i in mode k, R the matrix of these gains and Ω² = diag(ω_k²). The modes move
-/// according to `η̈ = Ω²·(θ_m − η)` and the points as Θ = R·η, so that `Â = −R·Ω²·R⁻¹` and `B̂ = R·Ω²·1`. This is the
+/// ρ_ik is the static gain of point i in mode k, ρ the matrix of these gains and Ω² = diag(ω_k²). The modes move
+/// according to `η̈ = Ω²·(θ_m − η)` and the points as Θ = ρ·η, so that `Â = −ρ·Ω²·ρ⁻¹` and `B̂ = ρ·Ω²·1`. This is the
 /// result of (21)-(23) in exact arithmetic; polynomials of ω² would lose half of the digits. Standard errors are to
 /// first order in the covariance of the fit. Modes that are left out do not contribute to the gains at rest, so Â·1 +
-/// B̂ is zero only as far as R·1 is one.
+/// B̂ is zero only as far as ρ·1 is one.
 ///
 /// # Errors
 /// [`EquivalentError::PointsAndModes`] unless there are as many points as modes; [`EquivalentError::TooClose`] if the
@@ -145,7 +145,7 @@ pub fn equivalent_beam(fit: &SharedPoles) -> Result<EquivalentBeam, EquivalentEr
     let squares = DVector::from_fn(modes, |k, _| fit.poles[k].omega_rad_s.powi(2));
     let form = ModalForm::new(&gains, &inverse, &squares, &DVector::zeros(modes));
     let (a, b) = (form.a, form.b);
-    // dÂ = −dR·Ω²·R⁻¹ − R·dΩ²·R⁻¹ − Â·dR·R⁻¹, dB̂ = dR·Ω²·1 + R·dΩ²·1.
+    // dÂ = −dR·Ω²·ρ⁻¹ − ρ·dΩ²·ρ⁻¹ − Â·dR·ρ⁻¹, dB̂ = dR·Ω²·1 + ρ·dΩ²·1.
     let slopes: Vec<(DMatrix<f64>, DVector<f64>)> = (0..fit.covariance.nrows())
         .map(|unknown| {
             let (d_gains, d_squares) = moved(fit, unknown);
@@ -162,7 +162,7 @@ pub fn equivalent_beam(fit: &SharedPoles) -> Result<EquivalentBeam, EquivalentEr
     Ok(EquivalentBeam { a, a_std, b, b_std, gains, inverse, squares, completed, given_to_last })
 }
 
-/// What one unknown of the fit moves: R, and ω_k².
+/// What one unknown of the fit moves: ρ, and ω_k².
 fn moved(fit: &SharedPoles, unknown: usize) -> (DMatrix<f64>, DVector<f64>) {
     let (points, modes) = (fit.static_gains.len(), fit.poles.len());
     let unknowns = fit.damping.unknowns();
@@ -179,13 +179,13 @@ fn moved(fit: &SharedPoles, unknown: usize) -> (DMatrix<f64>, DVector<f64>) {
     (d_gains, d_squares)
 }
 
-/// Deviation of what has the slope `by` by each unknown.
+/// Standard error of what has the slope `by` by each unknown.
 fn deviation(covariance: &DMatrix<f64>, by: impl Fn(usize) -> f64) -> f64 {
     let slope = DVector::from_fn(covariance.nrows(), |u, _| by(u));
     slope.dot(&(covariance * &slope)).max(0.0).sqrt()
 }
 
-/// R⁻¹, where the data tell the points apart.
+/// ρ⁻¹, where the data tell the points apart.
 fn inverted(fit: &SharedPoles, gains: &DMatrix<f64>) -> Result<DMatrix<f64>, EquivalentError> {
     let points = gains.nrows();
     let refused = |ratio: f64, mode: usize| {

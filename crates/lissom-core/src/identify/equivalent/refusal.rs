@@ -14,7 +14,7 @@ pub struct PartOutside {
     /// Size of that part as a share of the response, median.
     pub share: f64,
     /// The same in standard errors, rms; `None` if these are not known.
-    pub deviations: Option<f64>,
+    pub standard_errors: Option<f64>,
     /// The delay of the response, if a delay explains that part \[s\].
     pub delay_s: Option<Estimate>,
 }
@@ -213,7 +213,8 @@ fn fit_words(error: &SharedPolesError, names: &[String]) -> String {
 }
 
 fn uneven_words(part: &PartOutside) -> String {
-    let errors = part.deviations.map_or(String::new(), |n| format!(" ({n:.1} standard errors)"));
+    let errors =
+        part.standard_errors.map_or(String::new(), |n| format!(" ({n:.1} standard errors)"));
     let late = part.delay_s.map_or(String::new(), |late| {
         format!(
             ", like a response that comes {:.3} ms {}",

@@ -1,6 +1,6 @@
 //! The responses of a campaign, in the form that Section 4 needs.
 
-use crate::identify::equivalent::data::{Deviations, EquivalentData};
+use crate::identify::equivalent::data::{EquivalentData, StdSource};
 use crate::identify::equivalent::refusal::EquivalentRefusal;
 use crate::identify::responses::correct::Response;
 use crate::identify::responses::rational::{MotorData, TipForm};
@@ -57,7 +57,7 @@ impl EquivalentData {
             omega_rad_s: rows.iter().map(|r| r.0).collect(),
             outputs: (0..angles.len()).map(|i| rows.iter().map(|r| r.1[i]).collect()).collect(),
             motor: Some(motor).filter(|m| !m.response.is_empty()),
-            deviations: Deviations::Floored,
+            std_source: StdSource::Floored,
         })
     }
 }

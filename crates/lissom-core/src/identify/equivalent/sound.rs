@@ -8,11 +8,11 @@ use crate::identify::responses::correct::Response;
 const SIZES: std::ops::RangeInclusive<f64> = 1e-50..=1e50;
 /// Frequencies \[rad/s\]: the same of their fourth powers.
 const FREQUENCIES: std::ops::RangeInclusive<f64> = 1e-20..=1e20;
-/// A deviation is a slip that is below this share of its response…
+/// A standard error is a slip that is below this share of its response…
 const TINY: f64 = 1e-9;
 /// …and of the median of all.
 const SMALLER: f64 = 1e-6;
-/// Deviations are none that lie this far from their responses (medians), either way.
+/// Standard errors are none that lie this far from their responses (medians), either way.
 const APART: f64 = 1e12;
 
 /// Refuses what would leave doubles on the way.
@@ -40,8 +40,8 @@ fn judged(
 ) -> Result<(), EquivalentRefusal> {
     // What is no number is refused where it is used, with its place.
     let sizes = median(responses.iter().map(|r| r.value.norm()));
-    let deviations = median(responses.iter().map(|r| r.std));
-    let (Some(size), Some(others)) = (sizes, deviations) else { return Ok(()) };
+    let standard_errors = median(responses.iter().map(|r| r.std));
+    let (Some(size), Some(others)) = (sizes, standard_errors) else { return Ok(()) };
     let fits = |s: f64| s == 0.0 || SIZES.contains(&s) && SIZES.contains(&(per / s));
     if let Some(odd) = responses.iter().map(|r| r.value.norm()).find(|s| s.is_finite() && !fits(*s))
     {

@@ -2,9 +2,7 @@
 
 use nalgebra::DMatrix;
 
-use crate::identify::equivalent::data::{
-    Deviations, Equivalent, EquivalentData, relative_residual,
-};
+use crate::identify::equivalent::data::{Equivalent, EquivalentData, StdSource, relative_residual};
 use crate::identify::equivalent::equivalent_arm::arm_below;
 use crate::identify::equivalent::refusal::EquivalentRefusal;
 use crate::identify::equivalent::sound::sound;
@@ -12,7 +10,7 @@ use crate::identify::equivalent::thresholds::{NO_ANGLE, OUTSIDE_DAMPING_MOST, PO
 use crate::identify::equivalent::turned_round::turned_round;
 use crate::identify::equivalent::zeros::response_zeros;
 use crate::identify::equivalent::{
-    EquivalentError, deviations, equivalent_beam, findings, imaginary,
+    EquivalentError, equivalent_beam, findings, imaginary, standard_errors,
 };
 use crate::identify::findings::{EquivalentFinding, FindingKind};
 use crate::identify::responses::correct::Response;
@@ -48,12 +46,12 @@ pub fn equivalent(
     let most = POLES_LEAST.max(2 * points + 2);
     let fit = fit_shared_poles_with_delays(&data.omega_rad_s, &data.outputs, most)
         .map_err(|source| EquivalentRefusal::Fit { source, names: data.names.clone() });
-    let found = fit.and_then(|fit| match data.deviations {
-        Deviations::FromResidual => {
-            let (outputs, fit) = deviations::of_points(data, fit, most);
+    let found = fit.and_then(|fit| match data.std_source {
+        StdSource::FromResidual => {
+            let (outputs, fit) = standard_errors::of_points(data, fit, most);
             judged(&EquivalentData { outputs, ..data.clone() }, fit, modes)
         }
-        Deviations::Measured | Deviations::Floored => judged(data, fit, modes),
+        StdSource::Measured | StdSource::Floored => judged(data, fit, modes),
     });
     let suspect = match &found {
         Err(refusal) => refusal.may_be_a_turned_phase(),
@@ -111,11 +109,11 @@ fn judged(
     let Some(all) = fit.only(&shown, &every) else {
         return Err(EquivalentRefusal::Noise { poles: fit.poles.len() });
     };
-    let with = |motor: &MotorData| match data.deviations {
-        Deviations::FromResidual => {
-            arm_below(&kept, &deviations::of_motor(motor, &kept, &beyond), &beyond)
+    let with = |motor: &MotorData| match data.std_source {
+        StdSource::FromResidual => {
+            arm_below(&kept, &standard_errors::of_motor(motor, &kept, &beyond), &beyond)
         }
-        Deviations::Measured | Deviations::Floored => arm_below(&kept, motor, &beyond),
+        StdSource::Measured | StdSource::Floored => arm_below(&kept, motor, &beyond),
     };
     let arm = data.motor.as_ref().map(with).transpose();
     let (arm, no_torque) = match arm {
@@ -145,7 +143,7 @@ fn judged(
         arm,
         strainless,
         imaginary,
-        deviations: data.deviations,
+        std_source: data.std_source,
         findings: Vec::new(),
     };
     whole.findings = findings::findings(data, &whole, found.len(), given, no_torque);

@@ -53,7 +53,7 @@ pub enum ConstantVelocityFinding {
         flexible: bool,
     },
     /// Friction is taken from constant velocities.
-    ClassicalFigures,
+    ConstantVelocityEstimates,
     /// Friction over speed is curved, and Coulomb friction is taken from the slowest speeds.
     SlowestSpeedsTaken,
     /// Friction over speed is curved in one direction.
@@ -122,7 +122,7 @@ impl fmt::Display for ConstantVelocityFinding {
                 "the motor turns at constant velocities in all runs. These show only friction: {} not given",
                 if *flexible { "inertia, modes and coupling are" } else { "inertia is" }
             ),
-            Self::ClassicalFigures => f.write_str(
+            Self::ConstantVelocityEstimates => f.write_str(
                 "friction is taken from constant velocities, extrapolated to zero speed, because no other method gives it",
             ),
             Self::SlowestSpeedsTaken => f.write_str(
@@ -189,7 +189,7 @@ impl Describe for ConstantVelocityFinding {
 
     fn severity(&self) -> Severity {
         match self {
-            Self::ClassicalFigures | Self::NoSteadyVelocity => Severity::Info,
+            Self::ConstantVelocityEstimates | Self::NoSteadyVelocity => Severity::Info,
             Self::SlowestSpeedsTaken
             | Self::ExtrapolationCurved { .. }
             | Self::SpeedsScatter { .. }
@@ -207,7 +207,7 @@ impl Describe for ConstantVelocityFinding {
                 vec![key::INERTIA, key::MODES, key::COUPLING]
             }
             Self::ConstantVelocityOnly { flexible: false } => vec![key::INERTIA],
-            Self::ClassicalFigures | Self::SlowestSpeedsTaken => {
+            Self::ConstantVelocityEstimates | Self::SlowestSpeedsTaken => {
                 vec![key::COULOMB, key::OFFSET, key::VISCOUS]
             }
             Self::NoSteadyVelocity
@@ -229,7 +229,7 @@ impl Describe for ConstantVelocityFinding {
             Self::ConstantVelocityOnly { .. } => {
                 "add runs that move back and forth: sines, a sweep, ordinary moves"
             }
-            Self::ClassicalFigures => {
+            Self::ConstantVelocityEstimates => {
                 "add sines or ordinary moves at the speeds of interest: they show friction without an extrapolation"
             }
             Self::SlowestSpeedsTaken => {

@@ -118,7 +118,7 @@ pub enum EstimateFinding {
         refused: bool,
     },
     /// A parameter that must be positive comes out negative.
-    NegativeFigure {
+    NegativeEstimate {
         /// The parameter.
         parameter: JudgedParameter,
         /// Its estimate.
@@ -208,7 +208,7 @@ impl fmt::Display for EstimateFinding {
                     100.0 * share
                 )
             }
-            Self::NegativeFigure { parameter, estimate, units } => write!(
+            Self::NegativeEstimate { parameter, estimate, units } => write!(
                 f,
                 "{} would be {} {}, but it must be positive: the model does not fit these runs, and the estimate is not given",
                 parameter.name(),
@@ -299,7 +299,7 @@ impl Describe for EstimateFinding {
             | Self::MethodsDisagree { .. } => Severity::Warning,
             Self::PoorExcitation { .. }
             | Self::NotSeparable { .. }
-            | Self::NegativeFigure { .. }
+            | Self::NegativeEstimate { .. }
             | Self::FrictionWithLoad { .. }
             | Self::ArmNotGiven { .. }
             | Self::CommandSign => Severity::Refusal,
@@ -315,7 +315,7 @@ impl Describe for EstimateFinding {
         match self {
             Self::NotSeparable { parameter }
             | Self::PoorExcitation { parameter, .. }
-            | Self::NegativeFigure { parameter, .. } => parameter.keys(),
+            | Self::NegativeEstimate { parameter, .. } => parameter.keys(),
             Self::FrictionWithLoad { .. } => vec![key::COULOMB, key::OFFSET],
             Self::OthersDoubtful => vec![key::COULOMB, key::VISCOUS, key::INERTIA, key::COUPLING],
             Self::CommandSign | Self::PerUnitOfCommand => {
@@ -339,7 +339,7 @@ impl Describe for EstimateFinding {
         match self {
             Self::NotSeparable { parameter }
             | Self::PoorExcitation { parameter, .. }
-            | Self::NegativeFigure { parameter, .. } => parameter.hint(),
+            | Self::NegativeEstimate { parameter, .. } => parameter.hint(),
             Self::FrictionWithLoad { .. } => "add a run that turns the other way",
             Self::OthersDoubtful => {
                 "check signs and units, and what else acts on the axis: the equation does not describe these runs"

@@ -289,7 +289,7 @@ impl fmt::Display for RegressionFinding {
                 "it looks as if {} ({:.0} standard errors; with this term the residual torque drops to {:.1} %). The \
                  equation has no such term: {}",
                 looks_like(term, *units),
-                term.deviations,
+                term.standard_errors,
                 100.0 * term.residual_ratio,
                 moved_by(term)
             ),

@@ -1,6 +1,6 @@
 //! Result keys that findings affect, without the suffix of their unit.
 
-use crate::information::Figure;
+use crate::information::ArmParameter;
 
 pub(crate) const COULOMB: &str = "friction.coulomb";
 pub(crate) const OFFSET: &str = "friction.offset";
@@ -25,13 +25,13 @@ pub(crate) const MOTION: &str = "motion";
 pub(crate) const RESIDUALS: &str = "residuals";
 
 /// The key of a parameter.
-pub(super) fn of(parameter: Figure) -> &'static str {
+pub(super) fn of(parameter: ArmParameter) -> &'static str {
     match parameter {
-        Figure::Coulomb => COULOMB,
-        Figure::Viscous => VISCOUS,
-        Figure::Inertia => INERTIA,
-        Figure::Coupling => COUPLING,
-        Figure::Frequency(_) | Figure::Damping(_) => MODES,
-        Figure::Offset => OFFSET,
+        ArmParameter::Coulomb => COULOMB,
+        ArmParameter::Viscous => VISCOUS,
+        ArmParameter::Inertia => INERTIA,
+        ArmParameter::Coupling => COUPLING,
+        ArmParameter::Frequency(_) | ArmParameter::Damping(_) => MODES,
+        ArmParameter::Offset => OFFSET,
     }
 }

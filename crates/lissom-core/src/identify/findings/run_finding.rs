@@ -11,7 +11,7 @@ use crate::identify::findings::result_key as key;
 use crate::identify::findings::severity::Severity;
 use crate::identify::methods::regression::RunDifference;
 use crate::identify::separability::thresholds::LARGE_CHANGE;
-use crate::information::Figure;
+use crate::information::ArmParameter;
 use crate::plan::percent;
 
 /// Largest number of parameters listed in the message of a run that stands out.
@@ -25,7 +25,7 @@ const DEGREES_WITHIN: f64 = 0.1;
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct MovedParameter {
     /// The parameter.
-    pub parameter: Figure,
+    pub parameter: ArmParameter,
     /// Its change relative to its value, to first order.
     pub change_share: f64,
     /// The same in standard errors.

@@ -276,7 +276,7 @@ mod tests {
         let pole =
             crate::identify::responses::rational::Pole { omega_rad_s: 9.0, damping_ratio: 0.01 };
         let mode = flexible.then(|| (pole, about(0.4)));
-        MotorFit::of_figures(about(0.02), about(0.05), mode, TORQUE_PER_COMMAND, BACK_EMF)
+        MotorFit::of_estimates(about(0.02), about(0.05), mode, TORQUE_PER_COMMAND, BACK_EMF)
     }
 
     #[test]

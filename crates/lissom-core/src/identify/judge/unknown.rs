@@ -5,7 +5,7 @@ use crate::identify::findings::{EstimateFinding, EstimateUnits, Finding, JudgedP
 use crate::identify::judge::evidence::{Chosen, Evidence};
 use crate::identify::judge::thresholds::{REFUSED_ERROR, UNCERTAIN_ERROR};
 
-/// Figures that are not known to their own size are taken back.
+/// Estimates that are not known to their own size are taken back.
 pub(super) fn refuse_the_unknown(evidence: &Evidence<'_>, chosen: &mut Chosen) -> Vec<Finding> {
     let mut findings = Vec::new();
     let regression = evidence.methods.regression.is_some();
@@ -18,8 +18,8 @@ pub(super) fn refuse_the_unknown(evidence: &Evidence<'_>, chosen: &mut Chosen) -
     let forward = drive.friction.forward.filter(told);
     let backward = drive.friction.backward.filter(told);
     let sum = forward.xor(backward);
-    let mut look = |parameter: JudgedParameter, figure: &mut Option<Estimate>| {
-        let Some(estimate) = *figure else {
+    let mut look = |parameter: JudgedParameter, given: &mut Option<Estimate>| {
+        let Some(estimate) = *given else {
             // Without a regression one refusal of all of it is enough.
             if regression && !(sum.is_some() && parameter == JudgedParameter::Coulomb) {
                 findings.push(EstimateFinding::NotSeparable { parameter });
@@ -30,11 +30,11 @@ pub(super) fn refuse_the_unknown(evidence: &Evidence<'_>, chosen: &mut Chosen) -
         let share = if value == 0.0 { f64::INFINITY } else { std / value.abs() };
         let refused = share > REFUSED_ERROR || share.is_nan() || value < 0.0;
         if estimate.is_negative() {
-            findings.push(EstimateFinding::NegativeFigure { parameter, estimate, units });
-            *figure = None;
+            findings.push(EstimateFinding::NegativeEstimate { parameter, estimate, units });
+            *given = None;
         } else if refused || share > UNCERTAIN_ERROR {
             findings.push(EstimateFinding::PoorExcitation { parameter, estimate, units, refused });
-            *figure = figure.filter(|_| !refused);
+            *given = given.filter(|_| !refused);
         }
     };
     look(JudgedParameter::Coulomb, &mut drive.friction.coulomb);
@@ -43,7 +43,7 @@ pub(super) fn refuse_the_unknown(evidence: &Evidence<'_>, chosen: &mut Chosen) -
     if !beam.coupling_by_tip.is_empty() || beam.coupling.is_some() {
         look(JudgedParameter::Coupling, &mut beam.coupling);
     }
-    if findings.iter().any(|f| matches!(f, EstimateFinding::NegativeFigure { .. })) {
+    if findings.iter().any(|f| matches!(f, EstimateFinding::NegativeEstimate { .. })) {
         findings.push(EstimateFinding::OthersDoubtful);
     }
     let friction = &mut drive.friction;

@@ -38,7 +38,7 @@ pub struct LeastSquares {
     back_emf_viscous: f64,
 }
 
-/// Fits `τ = J·θ̈ + V·θ̇ + C·sgn θ̇ + O + Σκ_i(θ_m − θ_i) + g_s·sin θ + g_c·cos θ` to all motion with equal weights.
+/// Fits `τ = J·θ̈ + V·θ̇ + CF·sgn θ̇ + o + Σκ_i(θ_m − θ_i) + g_s·sin θ + g_c·cos θ` to all motion with equal weights.
 ///
 /// The equation is multiplied by smooth windows and integrated by parts, as in the regression in slip phases. Here
 /// windows may contain reversals, and Coulomb friction has the sign of the velocity at each sample. Windows are used if

@@ -18,7 +18,7 @@ use crate::spectrum::Phasor;
 
 /// Coulomb friction from one pair of runs, at ω0 and at 3ω0.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct PairFigure {
+pub struct PairEstimate {
     /// Index of the run at ω0.
     pub run: usize,
     /// Index of the run at 3ω0.
@@ -39,7 +39,7 @@ pub struct PairFigure {
 #[derive(Debug, Clone)]
 pub struct ThirdHarmonic {
     /// Result of each pair.
-    pub pairs: Vec<PairFigure>,
+    pub pairs: Vec<PairEstimate>,
     /// Mean CF/K of the pairs without a finding (of all pairs if all have one), in the unit of the command.
     pub coulomb_command: Estimate,
     /// Standard deviation of single pairs about that mean, in the unit of the command.
@@ -57,13 +57,13 @@ pub struct ThirdHarmonic {
 /// `None` if the linear solution is not positive, so that no friction can be found.
 ///
 /// ```
-/// # use {lissom::identify::{RunPhasors, pair_figure}, lissom::spectrum::Phasor, num_complex::Complex64};
+/// # use {lissom::identify::{RunPhasors, pair_estimate}, lissom::spectrum::Phasor, num_complex::Complex64};
 /// # let p = |size: f64, phase: f64| Phasor { value: Complex64::from_polar(size, phase), std: 0.0 };
 /// # let (zero, quarter) = (p(0.0, 0.0), std::f64::consts::FRAC_PI_2);
 /// let c = 0.132 * 4.0 / std::f64::consts::PI; // fundamental of a square wave of ±0.132 A
 /// let low = RunPhasors { omega_rad_s: 2.0, command_1: p(1.0, 0.0), command_3: p(c / 3.0, quarter + 0.9), motor_1: p(0.5, 0.3), motor_3: zero };
 /// let triple = RunPhasors { omega_rad_s: 6.0, command_1: p(c, quarter), command_3: zero, motor_1: p(0.5, 0.0), motor_3: zero };
-/// let pair = pair_figure(0, 1, &low, &triple).unwrap();
+/// let pair = pair_estimate(0, 1, &low, &triple).unwrap();
 /// assert!((pair.coulomb_command.value - 0.132).abs() < 1e-12);
 /// ```
 ///
@@ -74,12 +74,12 @@ pub struct ThirdHarmonic {
 /// The friction term of the third harmonic has the phase 3φ (errata of (27)), so that the result does not
 /// depend on the time origin. The minimum is found by the Levenberg-Marquardt method from the linear
 /// solution, instead of a direct search.
-pub fn pair_figure(
+pub fn pair_estimate(
     run: usize,
     triple_run: usize,
     low: &RunPhasors,
     triple: &RunPhasors,
-) -> Option<PairFigure> {
+) -> Option<PairEstimate> {
     let j = Complex64::I;
     let turn = |p: Phasor, k: f64| Complex64::from_polar(1.0, k * p.value.arg());
     let f3 = j * (4.0 / (3.0 * PI)) * turn(low.motor_1, 3.0);
@@ -96,14 +96,14 @@ pub fn pair_figure(
     let problem = Cost { alpha, beta, log_c: Vector1::new(linear.ln()) };
     let (solved, report) = LevenbergMarquardt::new().minimize(problem);
     let value = solved.log_c[0].exp();
-    // First order in the phasors; half of a complex error's power lies along a real figure.
+    // First order in the phasors; half of a complex error's power lies along a real estimate.
     let gain = 1.0 / (f3 * (1.0 - beta));
     let variance = gain.norm_sqr()
         * 0.5
         * (low.command_3.std.powi(2)
             + (ratio * triple.command_1.std).norm_sqr()
             + (triple.command_1.value / triple.motor_1.value).norm_sqr() * low.motor_3.std.powi(2));
-    value.is_finite().then_some(PairFigure {
+    value.is_finite().then_some(PairEstimate {
         run,
         triple_run,
         omega_rad_s: low.omega_rad_s,
@@ -119,9 +119,9 @@ pub fn pair_figure(
 /// The standard error of the mean includes the scatter of the pairs and the bias by sticking, from the `stuck_share` of
 /// each pair's run; the bias is not reduced by averaging. `None` without pairs. For a single pair, its own standard
 /// error is used in place of the scatter.
-pub fn mean_figure(
-    pairs: &[PairFigure],
-    stuck_share: impl Fn(&PairFigure) -> f64,
+pub fn mean_estimate(
+    pairs: &[PairEstimate],
+    stuck_share: impl Fn(&PairEstimate) -> f64,
 ) -> Option<(Estimate, f64)> {
     let n = pairs.len() as f64;
     let first = pairs.first()?;
@@ -209,16 +209,16 @@ pub(crate) fn third_harmonic(prepared: &Prepared<'_>) -> Option<ThirdHarmonic> {
                 far(a.motor_1.value.norm()).total_cmp(&far(b.motor_1.value.norm()))
             });
         if let Some((k, triple)) = triple {
-            pairs.extend(pair_figure(i, k, low, &triple));
+            pairs.extend(pair_estimate(i, k, low, &triple));
         }
     }
     let clean: Vec<bool> =
         pairs.iter().map(|p| !flagged(p.run) && !flagged(p.triple_run)).collect();
     let used = if clean.iter().any(|c| *c) { clean } else { vec![true; pairs.len()] };
-    let chosen: Vec<PairFigure> =
+    let chosen: Vec<PairEstimate> =
         pairs.iter().zip(&used).filter(|(_, u)| **u).map(|(p, _)| *p).collect();
     let stuck = |i: usize| runs[i].stuck_share.unwrap_or(0.0);
-    let (coulomb_command, spread_command) = mean_figure(&chosen, |p| stuck(p.run))?;
+    let (coulomb_command, spread_command) = mean_estimate(&chosen, |p| stuck(p.run))?;
     Some(ThirdHarmonic { pairs, coulomb_command, spread_command, used })
 }
 
@@ -260,9 +260,9 @@ mod tests {
         for delay in [0.0, 0.37, 1.9] {
             for ripple in [0.0, 0.02] {
                 let (low, high) = ideal(delay, ripple);
-                let figure = pair_figure(0, 1, &low, &high).unwrap();
-                assert!((figure.coulomb_command.value - 0.132).abs() < 1e-12, "{figure:?}");
-                assert!(figure.cost < 1e-20);
+                let estimate = pair_estimate(0, 1, &low, &high).unwrap();
+                assert!((estimate.coulomb_command.value - 0.132).abs() < 1e-12, "{estimate:?}");
+                assert!(estimate.cost < 1e-20);
             }
         }
     }
@@ -271,7 +271,7 @@ mod tests {
     fn the_minimum_is_one() {
         let (mut low, high) = ideal(0.2, 0.02);
         low.command_3.value *= Complex64::from_polar(1.05, 0.1);
-        let found = pair_figure(0, 1, &low, &high).unwrap();
+        let found = pair_estimate(0, 1, &low, &high).unwrap();
         let cost = |c: f64| {
             let ratio = low.motor_3.value / high.motor_1.value;
             let j = Complex64::I;
@@ -287,9 +287,9 @@ mod tests {
     }
 
     #[test]
-    fn no_friction_gives_no_figure() {
+    fn no_friction_gives_no_estimate() {
         let (mut low, high) = ideal(0.0, 0.0);
         low.command_3.value = -low.command_3.value;
-        assert!(pair_figure(0, 1, &low, &high).is_none());
+        assert!(pair_estimate(0, 1, &low, &high).is_none());
     }
 }

@@ -8,7 +8,7 @@ const ROUNDING: f64 = 1e-9;
 /// Samples looked at, spread over the record.
 const SAMPLES: usize = 8192;
 /// Share of the fourth differences that is kept, the smaller ones, and the mean square of so many of a normal
-/// number of deviation one, `1 − 2·z·φ(z)/KEPT` with z where |x| is less in this share.
+/// number of standard error one, `1 − 2·z·φ(z)/KEPT` with z where |x| is less in this share.
 const KEPT: f64 = 0.8;
 const KEPT_SQUARE: f64 = 0.437_723;
 /// Σ of the squares of 1, −4, 6, −4, 1.
@@ -19,9 +19,9 @@ const FOURTH_DIFFERENCE: f64 = 70.0;
 pub(crate) struct ChannelNoise {
     /// Step of the sensor; 0 where the samples have none.
     pub(crate) step: f64,
-    /// Deviation of all noise: rounding, step/√12, and what the sensor adds.
+    /// Standard error of all noise: rounding, step/√12, and what the sensor adds.
     pub(crate) std: f64,
-    /// Deviation of what is independent from sample to sample: less than that of all noise where the
+    /// Standard error of what is independent from sample to sample: less than that of all noise where the
     /// motion takes many samples for a step.
     pub(crate) independent: f64,
 }
@@ -29,7 +29,7 @@ pub(crate) struct ChannelNoise {
 /// Step and noise of uniform samples of a smooth motion.
 ///
 /// The step is the smallest difference between neighbours, if nearly all others are multiples of
-/// it. The deviation is from the fourth differences, which smooth motion leaves small, without the largest, which
+/// it. The standard error is from the fourth differences, which smooth motion leaves small, without the largest, which
 /// are those of its few corners; never less than step/√12. Of white noise it is exact; of
 /// rounding alone, whose errors hang together, good to a half.
 pub(crate) fn channel_noise(x: &[f64]) -> ChannelNoise {
@@ -55,7 +55,7 @@ pub(crate) fn independent_noise(x: &[f64]) -> f64 {
     spread(&mut fourth) / FOURTH_DIFFERENCE.sqrt()
 }
 
-/// Deviation of normal numbers whose sizes these are, from the smaller ones.
+/// Standard error of normal numbers whose sizes these are, from the smaller ones.
 fn spread(sizes: &mut [f64]) -> f64 {
     let count = ((KEPT * sizes.len() as f64) as usize).max(1);
     let (below, last, _) = sizes.select_nth_unstable_by(count - 1, f64::total_cmp);

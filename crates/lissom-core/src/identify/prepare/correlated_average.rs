@@ -141,7 +141,7 @@ mod tests {
         (0..n).map(|_| StandardNormal.sample(&mut rng)).collect()
     }
 
-    /// Ratio of scatter of the mean over seeds to the deviation claimed.
+    /// Ratio of scatter of the mean over seeds to the standard error claimed.
     fn honesty(colour: impl Fn(Vec<f64>) -> Vec<f64>) -> f64 {
         let (mut scatter, mut claimed) = (0.0, 0.0);
         for seed in 0..400 {
@@ -154,7 +154,7 @@ mod tests {
 
     #[test]
     fn deviations_of_white_and_coloured_noise_are_honest() {
-        // 400 seeds give the ratio to 3.5 % (one deviation).
+        // 400 seeds give the ratio to 3.5 % (one standard error).
         let white = honesty(|x| x);
         assert!((white - 1.0).abs() < 0.12, "{white}");
         let red = honesty(|x| {
@@ -179,7 +179,7 @@ mod tests {
             (0..1000).map(|k| 2.0 + (2.0 * PI * 7.3 * f64::from(k) / 1000.0).sin()).collect();
         let a = average(&x).unwrap();
         assert!((a.mean - 2.0).abs() < 1e-3, "{a:?}");
-        // And out of its deviation: unit amplitude over 7 periods would count as 0.1.
+        // And out of its standard error: unit amplitude over 7 periods would count as 0.1.
         assert!(a.std < 1e-2, "{a:?}");
     }
 

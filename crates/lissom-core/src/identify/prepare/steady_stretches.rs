@@ -45,7 +45,7 @@ struct Grown {
 /// Velocities over blocks of 8, 16, … samples are grown into the longest stretches in which they
 /// agree to a share; blocks longer than the beam's oscillation average it away. The longest ones
 /// are judged first and none may overlap. A stretch stands where a parabola through its velocity
-/// changes by less than a sixth of that share, two deviations counted; where the motor never stops
+/// changes by less than a sixth of that share, two standard errors counted; where the motor never stops
 /// in it; and where the command does not change by more than 10 %.
 pub(crate) fn stretches(run: &Run, hold: Hold) -> Vec<SteadyStretch> {
     let mut grown = grown(run);

@@ -86,14 +86,14 @@ pub(crate) fn bands(
         .collect()
 }
 
-/// Friction with what takes it for a square wave adds to its deviation where the joint sticks.
+/// Friction with what takes it for a square wave adds to its standard error where the joint sticks.
 fn sure(coulomb_command: Estimate, runs: &[RunAnalysis], general: &[usize]) -> Estimate {
     let stuck = general.iter().filter_map(|&i| runs[i].stuck_share).fold(STUCK_LEAST, f64::max);
     let std = coulomb_command.std.hypot(sticking_error(stuck) * coulomb_command.value);
     Estimate { std, ..coulomb_command }
 }
 
-/// Bands of the command without a square wave. The deviation counts that of friction, and the share that the
+/// Bands of the command without a square wave. The standard error counts that of friction, and the share that the
 /// sensor's noise has in what the motor shows: the loop brings it back as a command, as coherent as motion is,
 /// and draws the response to what the controller makes of it.
 fn square_wave(records: &Records<'_>, coulomb_command: Estimate) -> Vec<Band> {

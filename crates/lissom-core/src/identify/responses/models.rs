@@ -14,7 +14,7 @@ use crate::record::{Campaign, Tip};
 
 /// The model that the slip phases' estimates make, where they explain all: a rigid axis without
 /// tips, or one tip that follows one mode.
-pub(crate) fn figures_model(
+pub(crate) fn estimates_model(
     campaign: &Campaign,
     motor: Option<(&MotorRegression, &DriveEstimates)>,
     beam: Option<&BeamRegression>,
@@ -36,7 +36,8 @@ pub(crate) fn figures_model(
     let command = &campaign.channels.command;
     let constant = command.torque_per_unit();
     let through = mode.map(|m| m.1);
-    let model = MotorFit::of_figures(inertia, viscous, through, constant, command.back_emf_viscous);
+    let model =
+        MotorFit::of_estimates(inertia, viscous, through, constant, command.back_emf_viscous);
     (inertia.value > 0.0).then(|| (model, mode.map(|m| BeamFit::of_mode(m.0))))
 }
 
@@ -49,7 +50,7 @@ pub(crate) fn rigid_model(campaign: &Campaign, replay: &OutputError) -> Option<M
     let constant = command.torque_per_unit();
     let back_emf = command.back_emf_viscous;
     let (inertia, viscous) = (replay.inertia()?, replay.friction(back_emf).viscous?);
-    Some(MotorFit::of_figures(inertia, viscous, None, constant, back_emf))
+    Some(MotorFit::of_estimates(inertia, viscous, None, constant, back_emf))
 }
 
 /// The beam's modes from its tips' responses to the motor.

@@ -57,7 +57,7 @@ impl<'a> ReplayedBands<'a> {
     /// of the command without friction, as held and as late as it acted. E holds the sensor's noise
     /// and what the arm has not, but no transient, no friction, and nothing of the change of G within
     /// the band: those are in the arm's motion. What is wrong in the arm's parameters is in G and,
-    /// with the other sign, in E; what remains of it counts in the deviation. `None` where no band is.
+    /// with the other sign, in E; what remains of it counts in the standard error. `None` where no band is.
     pub(crate) fn motor(&self, omega_rad_s: f64) -> Option<Response> {
         self.response(0, omega_rad_s)
     }
@@ -168,11 +168,11 @@ fn beyond(logged: &[f64], of_arm: &[f64]) -> Vec<f64> {
     logged.iter().zip(of_arm).map(|(y, p)| y - p).collect()
 }
 
-/// How E follows U in a band, and with what deviation.
+/// How E follows U in a band, and with what standard error.
 ///
 /// E's power at the lines is its mean over the band or its mean at the lines that are driven,
 /// whichever is larger: a sensor's steps come back with a repeated motion and err at its lines alone.
-/// The deviation is never less than what follows U: that may be what the arm has not, but also
+/// The standard error is never less than what follows U: that may be what the arm has not, but also
 /// noise of the sensor that the loop has brought to the command.
 fn following(bins: &[Bin]) -> Option<Band> {
     let band = average(bins)?;

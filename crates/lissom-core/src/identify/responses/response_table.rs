@@ -88,7 +88,7 @@ fn spoken_against(run: &RunAnalysis, findings: &[Finding]) -> bool {
     })
 }
 
-/// Relative deviation of a corrected response, where it is too large for the point to count.
+/// Relative standard error of a corrected response, where it is too large for the point to count.
 fn weak(response: &Response) -> Option<f64> {
     let relative = response.std / response.value.norm();
     (relative.is_nan() || relative > POINT_UNCERTAIN).then_some(relative)

@@ -1,4 +1,4 @@
-//! Figures with their covariance in shares of their sizes, from either method.
+//! Estimates with their covariance in shares of their sizes, from either method.
 
 use nalgebra::{DMatrix, DVector};
 
@@ -7,47 +7,47 @@ use crate::identify::estimate::Estimate;
 use crate::identify::methods::output_error::OutputError;
 use crate::identify::methods::regression::Terms;
 use crate::identify::separability::thresholds::LOST_SHARE;
-use crate::identify::separability::{FigureKnown, correlation};
-use crate::information::{Figure, inverse, slopes};
+use crate::identify::separability::{ParameterCertainty, correlation};
+use crate::information::{ArmParameter, inverse, slopes};
 use crate::record::Campaign;
 
-/// Differences for the slopes of figures are taken over this many deviations of a parameter.
+/// Differences for the slopes of parameters are taken over this many standard errors of a parameter.
 const HALF: f64 = 0.5;
 
-/// Figures and their covariance.
+/// Estimates and their covariance.
 pub(super) struct Judged {
-    pub(super) figures: Vec<Figure>,
-    /// ∂(figure/size)/∂parameter, a column a figure.
+    pub(super) parameters: Vec<ArmParameter>,
+    /// ∂(parameter/size)/∂parameter, a column a parameter.
     pub(super) slopes: DMatrix<f64>,
     /// In shares of the sizes.
     pub(super) covariance: DMatrix<f64>,
-    /// Changes of the figures that the logs do not show, in shares of the sizes, of length one.
+    /// Changes of the parameters that the logs do not show, in shares of the sizes, of length one.
     pub(super) lost: Vec<DVector<f64>>,
 }
 
 impl Judged {
-    /// The figures that the output error moved.
+    /// The parameters that the output error moved.
     pub(super) fn of_replay(oe: &OutputError, used: &Campaign) -> Self {
         let back_emf = used.channels.command.back_emf_viscous;
         let arm = &oe.arm;
-        let all = Figure::of(arm).into_iter().chain([Figure::Offset]);
-        let (mut figures, mut columns) = (Vec::new(), Vec::new());
-        for figure in all {
-            let size = match figure {
-                Figure::Viscous => (figure.value(arm) - back_emf).abs(),
-                _ => figure.size(arm),
+        let all = ArmParameter::of(arm).into_iter().chain([ArmParameter::Offset]);
+        let (mut parameters, mut columns) = (Vec::new(), Vec::new());
+        for parameter in all {
+            let size = match parameter {
+                ArmParameter::Viscous => (parameter.value(arm) - back_emf).abs(),
+                _ => parameter.size(arm),
             };
-            let of = |a: &_| figure.value(a) / size;
+            let of = |a: &_| parameter.value(a) / size;
             let column = slopes(arm, &oe.parameters, &oe.covariance, HALF, of);
             let moved = column.iter().any(|s| *s != 0.0);
             if moved && column.iter().all(|s| s.is_finite()) {
-                figures.push(figure);
+                parameters.push(parameter);
                 columns.push(column);
             }
         }
         let slopes = matrix(oe.parameters.len(), &columns);
         let covariance = slopes.tr_mul(&(&oe.covariance * &slopes));
-        Self { figures, slopes, covariance, lost: Vec::new() }
+        Self { parameters, slopes, covariance, lost: Vec::new() }
     }
 
     /// Those of a regression in slip phases, with the standard errors that it states.
@@ -58,22 +58,27 @@ impl Judged {
         let coupling: f64 = values[couplings.clone()].iter().sum();
         let friction = &drive.friction;
         let coulomb = values[2].abs();
-        let all: [(Figure, &[usize], f64, Option<Estimate>); 5] = [
-            (Figure::Coulomb, &[2], coulomb, friction.coulomb),
+        let all: [(ArmParameter, &[usize], f64, Option<Estimate>); 5] = [
+            (ArmParameter::Coulomb, &[2], coulomb, friction.coulomb),
             (
-                Figure::Viscous,
+                ArmParameter::Viscous,
                 &[1],
                 friction.viscous.map_or(values[1], |v| v.value).abs(),
                 friction.viscous,
             ),
-            (Figure::Inertia, &[0], values[0].abs(), drive.inertia),
-            (Figure::Coupling, &couplings.collect::<Vec<_>>(), coupling.abs(), drive.coupling),
-            (Figure::Offset, &[3], coulomb, friction.offset),
+            (ArmParameter::Inertia, &[0], values[0].abs(), drive.inertia),
+            (
+                ArmParameter::Coupling,
+                &couplings.collect::<Vec<_>>(),
+                coupling.abs(),
+                drive.coupling,
+            ),
+            (ArmParameter::Offset, &[3], coulomb, friction.offset),
         ];
         let all = all.iter().filter(|(_, places, size, _)| !places.is_empty() && *size > 0.0);
-        let (mut figures, mut columns, mut stated) = (Vec::new(), Vec::new(), Vec::new());
-        for (figure, places, size, estimate) in all {
-            figures.push(*figure);
+        let (mut parameters, mut columns, mut stated) = (Vec::new(), Vec::new(), Vec::new());
+        for (parameter, places, size, estimate) in all {
+            parameters.push(*parameter);
             columns.push(DVector::from_fn(
                 n,
                 |i, _| {
@@ -84,42 +89,42 @@ impl Judged {
         }
         let slopes = matrix(n, &columns);
         let plain = slopes.tr_mul(&(&terms.covariance * &slopes));
-        // What the choice of the window adds is in the stated deviations alone.
+        // What the choice of the window adds is in the stated standard errors alone.
         let stretch = |i: usize| stated[i].map_or(1.0, |s| s / plain[(i, i)].sqrt());
         let covariance = DMatrix::from_fn(plain.nrows(), plain.ncols(), |i, j| {
             plain[(i, j)] * stretch(i) * stretch(j)
         });
-        let of_figures = |change: &DVector<f64>| {
+        let of_estimates = |change: &DVector<f64>| {
             let found = slopes.tr_mul(change);
             (found.norm() > 0.0).then(|| found.normalize())
         };
-        let lost = terms.lost.iter().filter_map(of_figures).collect();
-        Self { figures, slopes, covariance, lost }
+        let lost = terms.lost.iter().filter_map(of_estimates).collect();
+        Self { parameters, slopes, covariance, lost }
     }
 
     pub(super) fn none() -> Self {
         let none = || DMatrix::zeros(0, 0);
-        Self { figures: Vec::new(), slopes: none(), covariance: none(), lost: Vec::new() }
+        Self { parameters: Vec::new(), slopes: none(), covariance: none(), lost: Vec::new() }
     }
 
-    /// Whether a figure takes part in a change that the logs do not show.
-    fn is_lost(&self, figure: usize) -> bool {
-        self.lost.iter().any(|change| change[figure].abs() > LOST_SHARE)
+    /// Whether a parameter takes part in a change that the logs do not show.
+    fn is_lost(&self, parameter: usize) -> bool {
+        self.lost.iter().any(|change| change[parameter].abs() > LOST_SHARE)
     }
 
-    pub(super) fn known(&self) -> Vec<FigureKnown> {
+    pub(super) fn known(&self) -> Vec<ParameterCertainty> {
         let information = inverse(&self.covariance);
-        let known = |(i, figure): (usize, &Figure)| FigureKnown {
-            figure: *figure,
+        let known = |(i, parameter): (usize, &ArmParameter)| ParameterCertainty {
+            parameter: *parameter,
             std: if self.is_lost(i) { f64::INFINITY } else { self.covariance[(i, i)].sqrt() },
             alone: 1.0 / information[(i, i)].sqrt(),
         };
-        self.figures.iter().enumerate().map(known).collect()
+        self.parameters.iter().enumerate().map(known).collect()
     }
 
     /// Largest eigenvalue of the correlation matrix over the least.
     pub(super) fn condition(&self) -> f64 {
-        if self.figures.is_empty() || !self.lost.is_empty() {
+        if self.parameters.is_empty() || !self.lost.is_empty() {
             return f64::INFINITY;
         }
         let values = correlation(&self.covariance).symmetric_eigenvalues();

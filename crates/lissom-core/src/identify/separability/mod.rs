@@ -1,4 +1,4 @@
-//! Which figures the logs separate, by the covariance: the direction that they tell least about, what each
+//! Which parameters the logs separate, by the covariance: the direction that they tell least about, what each
 //! run carries, which run spoils what, and which to add.
 
 mod direction;
@@ -23,41 +23,41 @@ use crate::identify::findings::{
 use crate::identify::found_arm::ArmSource;
 use crate::identify::judge::{Chosen, Evidence, Methods};
 use crate::identify::separability::thresholds::ALL_SHARP;
-use crate::information::Figure;
+use crate::information::ArmParameter;
 use crate::record::Campaign;
 
-/// A figure beside the others. Deviations are shares of its [size](Figure::size).
+/// A parameter beside the others. Standard errors are shares of its [size](ArmParameter::size).
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct FigureKnown {
+pub struct ParameterCertainty {
     /// Which.
-    pub figure: Figure,
-    /// Its deviation; infinite where the logs do not tell it from others.
+    pub parameter: ArmParameter,
+    /// Its standard error; infinite where the logs do not tell it from others.
     pub std: f64,
-    /// The deviation that it would have if the other figures were known.
+    /// The standard error that it would have if the other parameters were known.
     pub alone: f64,
 }
 
 /// What the logs separate.
 ///
-/// The covariance is the one that the figures' deviations are from, each figure in shares of its own
-/// size: F = S⁻¹·G·C·Gᵀ·S⁻¹ with C the parameters' covariance, G the figures' slopes, S the sizes. The
-/// deviation of `alone` is 1/√(F⁻¹)_ii.
+/// The covariance is the one that the parameters' standard errors are from, each parameter in shares of its own
+/// size: F = S⁻¹·G·C·Gᵀ·S⁻¹ with C the parameters' covariance, G the parameters' slopes, S the sizes. The
+/// standard error of `alone` is 1/√(F⁻¹)_ii.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Separability {
     /// The method whose covariance it is.
     pub source: ArmSource,
-    /// Every figure; empty where no method has a covariance of those that stand.
-    pub figures: Vec<FigureKnown>,
-    /// Condition of the figures' correlation matrix; infinite where some cannot be told apart.
+    /// Every parameter; empty where no method has a covariance of those that stand.
+    pub parameters: Vec<ParameterCertainty>,
+    /// Condition of the parameters' correlation matrix; infinite where some cannot be told apart.
     pub condition: f64,
     /// The principal directions of F, least known first.
     pub directions: Vec<Direction>,
     /// What each run carries, of an output error that stands on two runs or more, else of a regression on three or more.
     pub runs: Vec<RunShare>,
-    /// The further run that would say most about the figure that leads the first direction; `None` where
+    /// The further run that would say most about the parameter that leads the first direction; `None` where
     /// all are sharp, without an output error that stands, or where no run tried would help.
     pub run_to_add: Option<RunToAdd>,
-    /// Codes of the findings that say that the arm is not all there is: deviations do not count what is missing.
+    /// Codes of the findings that say that the arm is not all there is: standard errors do not count what is missing.
     pub doubted_by: Vec<&'static str>,
 }
 
@@ -108,10 +108,10 @@ impl Separability {
         };
         let covariance = &judged.covariance;
         let mut directions = direction::lost(&judged);
-        directions.extend(direction::of(&judged.figures, covariance));
+        directions.extend(direction::of(&judged.parameters, covariance));
         let found = Self {
             source,
-            figures: judged.known(),
+            parameters: judged.known(),
             condition: judged.condition(),
             run_to_add: replay.and_then(|oe| {
                 RunToAdd::of(oe, used, &judged, directions.first().filter(|d| d.std > ALL_SHARP)?)
@@ -120,15 +120,15 @@ impl Separability {
             runs,
             doubted_by: findings.iter().filter(|f| doubts(f)).map(Finding::code).collect(),
         };
-        (!found.figures.is_empty() || !found.runs.is_empty()).then_some(found)
+        (!found.parameters.is_empty() || !found.runs.is_empty()).then_some(found)
     }
 
-    /// Whether every figure is known to 1 % or better.
+    /// Whether every parameter is known to 1 % or better.
     pub fn is_sharp(&self) -> bool {
-        self.figures.iter().all(|f| f.std <= ALL_SHARP)
+        self.parameters.iter().all(|f| f.std <= ALL_SHARP)
     }
 
-    /// The run that fits the others least, where it does not fit. One at a time: it is in the figures that
+    /// The run that fits the others least, where it does not fit. One at a time: it is in the parameters that
     /// all others are compared with.
     pub fn stands_out(&self) -> Option<&RunShare> {
         let spoil = self.runs.iter().filter(|run| run.spoils());
@@ -139,9 +139,9 @@ impl Separability {
     pub(super) fn finding(&self) -> Option<Finding> {
         let run = self.stands_out()?;
         let moved = run.moved().map(|c| MovedParameter {
-            parameter: c.figure,
+            parameter: c.parameter,
             change_share: c.change,
-            change_standard_errors: c.deviations,
+            change_standard_errors: c.standard_errors,
         });
         let found = RunFinding::RunStandsOut {
             residual_ratio: run.residual,

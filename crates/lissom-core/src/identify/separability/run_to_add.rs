@@ -4,7 +4,7 @@ use crate::identify::methods::output_error::OutputError;
 use crate::identify::separability::direction::Direction;
 use crate::identify::separability::judged::Judged;
 use crate::identify::separability::thresholds::{RUN_AS_GOOD, RUN_WORTH};
-use crate::information::Figure;
+use crate::information::ArmParameter;
 use crate::plan::{Addition, Bounds, PlannedMotion, additions};
 use crate::record::Campaign;
 
@@ -17,9 +17,9 @@ pub struct RunToAdd {
     pub amplitude_rad: f64,
     /// Time to log \[s\].
     pub record_s: f64,
-    /// The figure that it is for: the one that moves most along the direction least known.
-    pub figure: Figure,
-    /// Deviation of that now, in shares of its [size](Figure::size)…
+    /// The parameter that it is for: the one that moves most along the direction least known.
+    pub parameter: ArmParameter,
+    /// Standard error of that now, in shares of its [size](ArmParameter::size)…
     pub std_now: f64,
     /// …and with the run.
     pub std_then: f64,
@@ -33,8 +33,8 @@ impl RunToAdd {
         judged: &Judged,
         worst: &Direction,
     ) -> Option<Self> {
-        let figure = worst.parts.first()?.figure;
-        let at = judged.figures.iter().position(|f| *f == figure)?;
+        let parameter = worst.parts.first()?.parameter;
+        let at = judged.parameters.iter().position(|f| *f == parameter)?;
         let bounds = Bounds::of(used)?;
         let tried = additions(&oe.arm, &oe.parameters, &used.channels, &oe.noise, &bounds);
         let column = judged.slopes.columns(at, 1).into_owned();
@@ -58,7 +58,7 @@ impl RunToAdd {
             motion: chosen.motion,
             amplitude_rad: chosen.amplitude_rad,
             record_s: chosen.record_s,
-            figure,
+            parameter,
             std_now,
             std_then: share * std_now,
         })

@@ -7,7 +7,7 @@ use crate::identify::methods::regression::{MotorRegression, RunLeftOut, unlike_o
 use crate::identify::separability::judged::Judged;
 use crate::identify::separability::thresholds::{RUN_CARRIES, RUN_MOVES, RUN_RESIDUAL};
 use crate::identify::thresholds::PRESENT;
-use crate::information::Figure;
+use crate::information::ArmParameter;
 use crate::record::Campaign;
 
 /// What a run says beside the others.
@@ -15,42 +15,44 @@ use crate::record::Campaign;
 pub struct RunShare {
     /// Its name.
     pub run: String,
-    /// Root mean square of its residual over that of the others, at the figures that these have without
+    /// Root mean square of its residual over that of the others, at the parameters that these have without
     /// it.
     pub residual: f64,
-    /// Whether the others' figures do not describe it.
+    /// Whether the others' parameters do not describe it.
     pub unlike: bool,
-    /// What it carries of each figure.
-    pub figures: Vec<Carried>,
+    /// What it carries of each parameter.
+    pub parameters: Vec<Carried>,
 }
 
-/// A figure with and without a run.
+/// A parameter with and without a run.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Carried {
     /// Which.
-    pub figure: Figure,
-    /// Its deviation without the run over that with it; infinite where the others do not show it.
+    pub parameter: ArmParameter,
+    /// Its standard error without the run over that with it; infinite where the others do not show it.
     pub growth: f64,
     /// By how much it would move without the run, to first order, in shares of its size…
     pub change: f64,
-    /// …and in the deviations that it has then.
-    pub deviations: f64,
+    /// …and in the standard errors that it has then.
+    pub standard_errors: f64,
 }
 
 impl RunShare {
-    /// Whether its residual is beyond that of the others and figures move by it.
+    /// Whether its residual is beyond that of the others and parameters move by it.
     pub fn spoils(&self) -> bool {
         self.unlike && self.moved().next().is_some()
     }
 
-    /// Figures that would be others without it.
+    /// Estimates that would be others without it.
     pub fn moved(&self) -> impl Iterator<Item = &Carried> {
-        self.figures.iter().filter(|c| c.deviations.abs() > PRESENT && c.change.abs() > RUN_MOVES)
+        self.parameters
+            .iter()
+            .filter(|c| c.standard_errors.abs() > PRESENT && c.change.abs() > RUN_MOVES)
     }
 
-    /// Figures that are known from it above all.
+    /// Estimates that are known from it above all.
     pub fn carries(&self) -> impl Iterator<Item = &Carried> {
-        self.figures.iter().filter(|c| c.growth > RUN_CARRIES)
+        self.parameters.iter().filter(|c| c.growth > RUN_CARRIES)
     }
 }
 
@@ -63,7 +65,7 @@ pub(super) fn shares(judged: &Judged, by_run: &ByRun, used: &Campaign) -> Vec<Ru
             run: used.runs[run].name().to_owned(),
             residual: beside.residual,
             unlike: beside.residual > RUN_RESIDUAL,
-            figures: carried(judged, by_run, (run, beside.noise), &all),
+            parameters: carried(judged, by_run, (run, beside.noise), &all),
         })
     };
     by_run.runs().filter_map(share).collect()
@@ -84,17 +86,17 @@ pub(super) fn shares_of_regression(
     let share = |left_out: &RunLeftOut| {
         let change = judged.slopes.tr_mul(&(&left_out.value - &with));
         let without = judged.slopes.tr_mul(&(&left_out.covariance * &judged.slopes));
-        let of_figure = |(i, figure): (usize, &Figure)| Carried {
-            figure: *figure,
+        let of_parameter = |(i, parameter): (usize, &ArmParameter)| Carried {
+            parameter: *parameter,
             growth: (without[(i, i)] / judged.covariance[(i, i)]).sqrt(),
             change: change[i],
-            deviations: change[i] / without[(i, i)].sqrt(),
+            standard_errors: change[i] / without[(i, i)].sqrt(),
         };
         RunShare {
             run: used.runs[left_out.run].name().to_owned(),
             residual: left_out.residual,
             unlike: unlike == Some(left_out.run),
-            figures: judged.figures.iter().enumerate().map(of_figure).collect(),
+            parameters: judged.parameters.iter().enumerate().map(of_parameter).collect(),
         }
     };
     fit.left_out.iter().map(share).collect()
@@ -108,11 +110,11 @@ fn carried(
 ) -> Vec<Carried> {
     let without = by_run.covariance(&judged.slopes, Some(run), None);
     let change = by_run.change_without(&judged.slopes, run);
-    let of_figure = |(i, figure): (usize, &Figure)| Carried {
-        figure: *figure,
+    let of_parameter = |(i, parameter): (usize, &ArmParameter)| Carried {
+        parameter: *parameter,
         growth: (without[(i, i)] / all[(i, i)]).sqrt(),
         change: change[i],
-        deviations: change[i] / (noise * without[(i, i)].sqrt()),
+        standard_errors: change[i] / (noise * without[(i, i)].sqrt()),
     };
-    judged.figures.iter().enumerate().map(of_figure).collect()
+    judged.parameters.iter().enumerate().map(of_parameter).collect()
 }

@@ -5,9 +5,9 @@ use crate::identify::separability::direction::{Direction, DirectionPart};
 use crate::identify::separability::run_to_add::RunToAdd;
 use crate::identify::separability::runs::{Carried, RunShare};
 use crate::identify::separability::thresholds::{CHANGE_SHOWN, CORRELATED};
-use crate::identify::separability::{FigureKnown, Separability};
+use crate::identify::separability::{ParameterCertainty, Separability};
 use crate::identify::thresholds::NORMAL_95;
-use crate::information::Figure;
+use crate::information::ArmParameter;
 use crate::plan::percent;
 use crate::record::Axis;
 
@@ -31,16 +31,17 @@ impl Separability {
     fn least_known(&self) -> Option<String> {
         let worst = self.directions.first()?;
         if self.is_sharp() {
-            let least = self.figures.iter().max_by(|a, b| a.std.total_cmp(&b.std))?;
+            let least = self.parameters.iter().max_by(|a, b| a.std.total_cmp(&b.std))?;
             let if_so = if self.doubted_by.is_empty() { "" } else { ", if the model is complete" };
-            let offset = self.figures.iter().any(|f| f.figure == Figure::Offset);
+            let offset = self.parameters.iter().any(|f| f.parameter == ArmParameter::Offset);
             let of_what = if offset { " (the offset in percent of Coulomb friction)" } else { "" };
-            let modes = self.figures.iter().any(|f| matches!(f.figure, Figure::Frequency(_)));
+            let modes =
+                self.parameters.iter().any(|f| matches!(f.parameter, ArmParameter::Frequency(_)));
             let all = if modes { "All parameters" } else { "All parameters of friction and drive" };
             return Some(format!(
                 "{all} have a standard error of 1 % or less{of_what}{if_so}. Least certain: {}, standard error {}, 95 % interval \
                  ±{}.",
-                least.figure.name(),
+                least.parameter.name(),
                 percent(least.std),
                 percent(NORMAL_95 * least.std)
             ));
@@ -57,7 +58,7 @@ impl Separability {
     /// Findings that speak against the standard errors on which the verdict is based.
     fn doubted(&self) -> Option<String> {
         let codes = self.doubted_by.join(", ");
-        (!codes.is_empty() && !self.figures.is_empty()).then(|| {
+        (!codes.is_empty() && !self.parameters.is_empty()).then(|| {
             format!(
                 "The runs contain effects that the model does not have ({codes}): errors of the parameters may be larger than \
                  their standard errors, and more runs of the same kind do not change this."
@@ -66,17 +67,21 @@ impl Separability {
     }
 
     fn best_known(&self) -> String {
-        let best = self.figures.iter().min_by(|a, b| a.std.total_cmp(&b.std));
-        best.filter(|_| self.figures.len() > 1).map_or_else(String::new, |best| {
-            format!(" Most certain: {}, standard error {}.", best.figure.name(), percent(best.std))
+        let best = self.parameters.iter().min_by(|a, b| a.std.total_cmp(&b.std));
+        best.filter(|_| self.parameters.len() > 1).map_or_else(String::new, |best| {
+            format!(
+                " Most certain: {}, standard error {}.",
+                best.parameter.name(),
+                percent(best.std)
+            )
         })
     }
 
     /// The standard error of the leading parameter if the other parameters were known.
     fn suffering(&self) -> Option<String> {
-        let lead = self.directions.first()?.parts.first()?.figure;
-        let known = self.figures.iter().find(|f| f.figure == lead)?;
-        let FigureKnown { std, alone, .. } = *known;
+        let lead = self.directions.first()?.parts.first()?.parameter;
+        let known = self.parameters.iter().find(|f| f.parameter == lead)?;
+        let ParameterCertainty { std, alone, .. } = *known;
         (!self.is_sharp() && std.is_finite() && std > CORRELATED * alone).then(|| {
             format!(
                 "If the other parameters were known, the standard error of {} would be {}: the logs do not lack signal, but a \
@@ -93,7 +98,7 @@ fn least_certain(worst: &Direction) -> Option<String> {
     let first = worst.parts.first()?;
     Some(if worst.parts.len() == 1 {
         let std = worst.std * first.weight;
-        format!("Least certain: {}, standard error {}.", first.figure.name(), percent(std))
+        format!("Least certain: {}, standard error {}.", first.parameter.name(), percent(std))
     } else {
         format!(
             "These logs hardly separate some parameters: {} (one standard error) would hardly change the motion.",
@@ -107,8 +112,8 @@ fn moved(parts: &[DirectionPart], length: f64) -> String {
     let part = |p: &DirectionPart| {
         let change = p.weight * length;
         let way = if change < 0.0 { "down" } else { "up" };
-        let of = if p.figure == Figure::Offset { " of Coulomb friction" } else { "" };
-        format!("{} {way} by {}{of}", p.figure.name(), percent(change.abs()))
+        let of = if p.parameter == ArmParameter::Offset { " of Coulomb friction" } else { "" };
+        format!("{} {way} by {}{of}", p.parameter.name(), percent(change.abs()))
     };
     match parts {
         [] => String::new(),
@@ -125,7 +130,7 @@ fn carries(run: &RunShare) -> Option<String> {
     let carried: Vec<&Carried> = run.carries().collect();
     let names = |of: &dyn Fn(&Carried) -> bool| {
         let names: Vec<String> =
-            carried.iter().filter(|c| of(c)).map(|c| c.figure.name()).collect();
+            carried.iter().filter(|c| of(c)).map(|c| c.parameter.name()).collect();
         (!names.is_empty()).then(|| names.join(", "))
     };
     let alone = names(&|c| c.growth.is_infinite());
@@ -160,7 +165,7 @@ fn worth_adding(run: &RunToAdd, axis: Axis) -> String {
         run.motion,
         run.amplitude_rad,
         run.record_s,
-        run.figure.name(),
+        run.parameter.name(),
         percent(run.std_now),
         percent(run.std_then)
     )

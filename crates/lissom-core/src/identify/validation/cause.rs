@@ -46,7 +46,7 @@ pub struct Cause {
     /// Which.
     pub kind: CauseKind,
     /// Its coefficient: delay \[s\], inertia \[kg·m²\], viscous friction \[N·m·s/rad\], torque \[N·m\],
-    /// torque per angle \[N·m/rad\], to be added to the figure; of coupling the share of it to be added.
+    /// torque per angle \[N·m/rad\], to be added to the estimate; of coupling the share of it to be added.
     pub value: f64,
     /// Share of the squared residual that it takes away by itself.
     pub share: f64,

@@ -122,12 +122,12 @@ impl Kernel {
         (k.cast_signed().saturating_add(whole as isize), lag_s - whole * self.sample_time_s)
     }
 
-    /// Deviation of a mean rate by white noise of deviation one in the samples.
+    /// Standard error of a mean rate by white noise of deviation one in the samples.
     pub(super) fn rate_noise(&self) -> f64 {
         self.noise(&self.window.first)
     }
 
-    /// Deviation of a mean second derivative by the same.
+    /// Standard error of a mean second derivative by the same.
     pub(super) fn acceleration_noise(&self) -> f64 {
         self.noise(&self.window.second)
     }

@@ -127,7 +127,7 @@ pub fn validate(
         }
     }
     let all = predicted(found, campaign, None);
-    // The window of the logs used, so that both figures compare.
+    // The window of the logs used, so that both estimates compare.
     let window_s = options.window_s.or(found.torque_used.map(|used| used.window_s));
     let mut torque =
         torque(found.for_torque(), campaign, &zeros(found.for_torque(), campaign), window_s);

@@ -105,7 +105,7 @@ fn leaves_what_the_sensor_adds(arm: &ModalArm) {
     assert!(v.residuals[0].outside() < 0.2, "{}", v.residuals[0].outside());
 }
 
-/// Each figure off by a known amount is named as the cause, with that amount.
+/// Each estimate off by a known amount is named as the cause, with that amount.
 #[test]
 fn what_is_wrong_is_named() {
     let delayed = ModalArm { command_lag_s: 0.004, ..rigid() };
@@ -196,7 +196,7 @@ fn a_softer_beam_is_named() {
     let moved = v.moved_mode.unwrap();
     assert_eq!(moved.by, MovedBy::Stiffness, "{moved:?}");
     assert!((moved.of_log_rad_s / (9.0 * soft.sqrt()) - 1.0).abs() < 0.005, "{moved:?}");
-    // Another figure that is off is not taken for the beam.
+    // Another estimate that is off is not taken for the beam.
     let heavy = ModalArm { inertia_kg_m2: 1.01 * flexible().inertia_kg_m2, ..flexible() };
     assert_eq!(by_options(&flexible(), &heavy).moved_mode, None);
     assert!(v.findings.iter().any(|f| f.code() == "residual-torque"), "{:?}", v.findings);

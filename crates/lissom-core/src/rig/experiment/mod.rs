@@ -42,7 +42,7 @@ pub enum Start {
     /// At rest, straight, at angle zero.
     Rest,
     /// At rest, with the motor at angle zero and the tip deflected by a force F_n \[N\], which is released at the
-    /// start: `q − θ_m = −E⁻¹·f·F_n` with the matrices of [`BeamDynamics`](crate::beam::BeamDynamics).
+    /// start: `q − θ_m = −Â⁻¹·Q̂·F_n` with the matrices of [`BeamDynamics`](crate::beam::BeamDynamics).
     Deflected {
         /// The force before the release \[N\].
         tip_force_n: f64,

@@ -60,8 +60,8 @@ fn shape(
     };
     match line.shape {
         LineShape::Straight => None,
-        LineShape::Concave { deviations } => curved(Curvature::Concave, deviations),
-        LineShape::Convex { deviations } => curved(Curvature::Convex, deviations),
+        LineShape::Concave { standard_errors } => curved(Curvature::Concave, standard_errors),
+        LineShape::Convex { standard_errors } => curved(Curvature::Convex, standard_errors),
         LineShape::Scattered { rms } => Some(ConstantVelocityFinding::SpeedsScatter {
             direction,
             rms_standard_errors: rms,

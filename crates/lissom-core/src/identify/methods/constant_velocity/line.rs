@@ -9,9 +9,9 @@ use crate::identify::methods::constant_velocity::thresholds::SAME_SPEED;
 use crate::identify::prepare::correlated_average::FREEDOM;
 use crate::identify::thresholds::REJECTED_CHANCE;
 
-/// Deviations below this share of the largest command are rounding.
+/// Standard errors below this share of the largest command are rounding.
 const ROUNDING: f64 = 1e-9;
-/// Rounds in which the slope that turns velocity's deviations into the command's settles: each
+/// Rounds in which the slope that turns velocity's standard errors into the command's settles: each
 /// takes its change down by the ratio of the two variances.
 const ROUNDS: usize = 4;
 /// Halvings of the variance that all points share: from all of the command down to 1e-15 of it.
@@ -46,13 +46,13 @@ pub enum LineShape {
     /// Friction grows less than in proportion to speed, so the extrapolation to zero speed is too high.
     Concave {
         /// Curvature divided by its standard error.
-        deviations: f64,
+        standard_errors: f64,
     },
     /// Friction grows more than in proportion to speed, or falls before it grows, so the
     /// extrapolation to zero speed is too low.
     Convex {
         /// Curvature divided by its standard error.
-        deviations: f64,
+        standard_errors: f64,
     },
     /// The points are farther from the line than their standard errors allow, on both sides.
     Scattered {
@@ -120,7 +120,7 @@ struct LineFit {
     freedom: usize,
     /// Speeds among the points.
     speeds: usize,
-    /// Where the points lie farther off than their deviations allow: that distance (rms) in units of
+    /// Where the points lie farther off than their standard errors allow: that distance (rms) in units of
     /// their deviations. Their scatter is then added to their variances.
     rejected: Option<f64>,
 }
@@ -139,8 +139,8 @@ pub(super) fn line(points: &[SpeedPoint], back_emf: f64) -> Result<FrictionLine,
     let shape = shape(&points, &fit, speeds);
     // Two at least, and a third of them: the rest is what a curve bends away by.
     let slow = starts.get(starts.len().div_ceil(3).max(2));
-    let slowest = slow.and_then(|to| LineFit::new(&points[..*to], 1)).map(|f| f.figure(0));
-    let mut coulomb = fit.figure(0);
+    let slowest = slow.and_then(|to| LineFit::new(&points[..*to], 1)).map(|f| f.estimate(0));
+    let mut coulomb = fit.estimate(0);
     if let (LineShape::Concave { .. } | LineShape::Convex { .. }, Some(slowest)) = (shape, slowest)
     {
         coulomb.std = coulomb.std.hypot(slowest.value - coulomb.value);
@@ -149,7 +149,7 @@ pub(super) fn line(points: &[SpeedPoint], back_emf: f64) -> Result<FrictionLine,
         return Err(LineError::TooClose { coulomb: coulomb.value, std: coulomb.std });
     }
     let c = &fit.covariance;
-    let slope = fit.figure(1);
+    let slope = fit.estimate(1);
     Ok(FrictionLine {
         coulomb,
         viscous: Estimate { value: slope.value - back_emf, std: slope.std },
@@ -188,15 +188,15 @@ fn shape(points: &[SpeedPoint], line: &LineFit, speeds: usize) -> LineShape {
         Some((bent, cubic.own_freedom()))
     };
     let sharp = if line.rejected.is_some() && speeds > 4 { cubic() } else { None };
-    for (deviations, freedom) in parabola.into_iter().chain(sharp) {
+    for (standard_errors, freedom) in parabola.into_iter().chain(sharp) {
         let chance = StudentsT::new(0.0, 1.0, freedom)
-            .map_or(1.0, |t| 2.0 * t.cdf(-deviations.abs().min(f64::MAX)));
+            .map_or(1.0, |t| 2.0 * t.cdf(-standard_errors.abs().min(f64::MAX)));
         if chance < REJECTED_CHANCE {
-            let size = deviations.abs();
-            return if deviations < 0.0 {
-                LineShape::Concave { deviations: size }
+            let size = standard_errors.abs();
+            return if standard_errors < 0.0 {
+                LineShape::Concave { standard_errors: size }
             } else {
-                LineShape::Convex { deviations: size }
+                LineShape::Convex { standard_errors: size }
             };
         }
     }
@@ -279,7 +279,7 @@ impl LineFit {
     }
 
     /// What the covariance is to be multiplied by, and the degrees of freedom it then has: the
-    /// points' own deviations, never less than their scatter; the scatter alone where that is beyond
+    /// points' own standard errors, never less than their scatter; the scatter alone where that is beyond
     /// them. Runs repeated at one speed mostly pass through the same travel and meet the same
     /// friction there: then speeds count, not points.
     fn scale(&self) -> (f64, f64) {
@@ -291,8 +291,8 @@ impl LineFit {
         }
     }
 
-    /// Coefficient `k`; its deviation is such that 1.96 of it make the 95 % interval.
-    fn figure(&self, k: usize) -> Estimate {
+    /// Coefficient `k`; its standard error is such that 1.96 of it make the 95 % interval.
+    fn estimate(&self, k: usize) -> Estimate {
         let (scale, freedom) = self.scale();
         let std = (self.covariance[(k, k)] * scale).max(0.0).sqrt() * wider_by_student(freedom);
         Estimate { value: self.value[k], std }

@@ -27,7 +27,7 @@ fn a_line_through_equal_weights_is_the_closed_form() {
     close(found.viscous.value, 1.5 - 0.25);
     // Covariance of three unit weights: 1/3 + 4/2 and 1/2; correlation −2/√(14/3).
     close(found.correlation, -2.0 / (14.0_f64 / 3.0).sqrt());
-    // χ² of 1/6 is below its one degree of freedom: the points' own deviations stand, and their
+    // χ² of 1/6 is below its one degree of freedom: the points' own standard errors stand, and their
     // 3·FREEDOM degrees of freedom widen the interval a little.
     let wider = StudentsT::new(0.0, 1.0, 3.0 * FREEDOM).unwrap().inverse_cdf(0.975) / 1.959_964;
     close(found.viscous.std, 0.5_f64.sqrt() * wider);
@@ -74,7 +74,9 @@ fn a_parabola_and_a_falling_start_are_seen() {
         line(&points(&list), 0.0).unwrap()
     };
     let concave = of(&|x| 1.0 + x - 0.01 * x * x);
-    assert!(matches!(concave.shape, LineShape::Concave { deviations } if deviations > 10.0));
+    assert!(
+        matches!(concave.shape, LineShape::Concave { standard_errors } if standard_errors > 10.0)
+    );
     // Its slowest third: a line through 1, 2, 3 of the parabola meets rest at 1 + 0.01·10/3.
     close(concave.slowest.unwrap().value, 1.0 + 0.1 / 3.0);
     assert!(concave.coulomb.value > concave.slowest.unwrap().value);

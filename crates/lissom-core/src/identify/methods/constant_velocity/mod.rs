@@ -73,7 +73,7 @@ pub(crate) fn where_meant(prepared: &Prepared<'_>) -> (Option<ConstantVelocity>,
 }
 
 impl ConstantVelocity {
-    /// The figures that these points give.
+    /// The estimates that these points give.
     pub(crate) fn of_points(channels: &Channels, points: Vec<SteadyPoint>) -> Self {
         let constant = channels.command.torque_per_unit();
         let direction = |sign: f64| {

@@ -23,7 +23,7 @@ pub(crate) fn taken(evidence: &Evidence<'_>, chosen: &Chosen) -> Vec<Finding> {
     let Some(found) = found.filter(|_| taken && chosen.drive.friction.coulomb.is_some()) else {
         return Vec::new();
     };
-    let mut findings = vec![Finding::new(ConstantVelocityFinding::ClassicalFigures)];
+    let mut findings = vec![Finding::new(ConstantVelocityFinding::ConstantVelocityEstimates)];
     let curved = |l: &FrictionLine| l.near_rest() != l.coulomb;
     if found.lines().any(|(_, line)| curved(line)) {
         findings.push(Finding::new(ConstantVelocityFinding::SlowestSpeedsTaken));
@@ -40,7 +40,7 @@ impl ConstantVelocity {
     }
 }
 
-/// The figures of both lines, by the slowest speeds where they are curved.
+/// The estimates of both lines, by the slowest speeds where they are curved.
 fn friction_near_rest(found: &ConstantVelocity) -> Option<Friction> {
     let (Ok(f), Ok(b)) = (&found.forward, &found.backward) else { return None };
     let (forward, backward) = (f.near_rest(), b.near_rest());

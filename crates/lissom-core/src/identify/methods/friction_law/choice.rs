@@ -58,15 +58,15 @@ pub(super) struct Tried {
     pub(super) term: LawTerm,
     pub(super) terms: Vec<Term>,
     /// What was found beside the terms that are taken.
-    figures: Option<Figures>,
+    estimates: Option<Estimates>,
 }
 
 /// A candidate with its cost on phases left out. Its `taken` is before the rule that a lag waits for the law by speed.
-type Figures = (f64, LawCandidate);
+type Estimates = (f64, LawCandidate);
 
 impl Tried {
     fn new(term: LawTerm, terms: Vec<Term>) -> Self {
-        Self { term, terms, figures: None }
+        Self { term, terms, estimates: None }
     }
 }
 
@@ -74,7 +74,7 @@ impl Tried {
 ///
 /// Of the terms that do better on phases left out, on kinds of stretches left out and in what is left,
 /// and with which friction at rest stays positive, the one that does best on phases left out is taken.
-/// A test by deviations alone would take them all: in a log of seconds everything is significant.
+/// A test by standard errors alone would take them all: in a log of seconds everything is significant.
 pub(super) fn choose(sampled: &Sampled<'_>, cut: &Cut, fastest: f64) -> Option<Choice> {
     let mut search = LawSearch::new(sampled, cut, fastest)?;
     let simplest = search.solution.relative_residual;
@@ -153,11 +153,11 @@ impl<'a> LawSearch<'a> {
         let Some(before) = Held::of(&self.rows, &self.terms) else { return false };
         let mut best: Option<(f64, usize, LawCandidate)> = None;
         let mut shown: Vec<(f64, LawCandidate)> = Vec::new();
-        let known = |tried: &Tried| tried.figures.or_else(|| self.figures(&before, tried));
-        let figures: Vec<_> = self.open.par_iter().map(known).collect();
-        for (i, figures) in figures.into_iter().enumerate() {
-            self.open[i].figures = figures;
-            let Some((cost, mut candidate)) = figures else { continue };
+        let known = |tried: &Tried| tried.estimates.or_else(|| self.estimates(&before, tried));
+        let estimates: Vec<_> = self.open.par_iter().map(known).collect();
+        for (i, estimates) in estimates.into_iter().enumerate() {
+            self.open[i].estimates = estimates;
+            let Some((cost, mut candidate)) = estimates else { continue };
             candidate.taken &= self.settled || candidate.term != LawTerm::CommandLag;
             if candidate.taken && best.as_ref().is_none_or(|b| cost < b.0) {
                 best = Some((cost, i, candidate));
@@ -185,7 +185,7 @@ impl<'a> LawSearch<'a> {
         let Some((_, i, _)) = best else { return false };
         let taken = self.open.remove(i);
         self.terms.extend(&taken.terms);
-        self.forget_figures();
+        self.forget_estimates();
         // Root and near rest are two shapes of one thing.
         let by_speed = |t: &LawTerm| *t == LawTerm::Root || t.is_near_rest();
         let gone =
@@ -200,12 +200,12 @@ impl<'a> LawSearch<'a> {
     }
 
     /// To be called where the terms taken change.
-    pub(super) fn forget_figures(&mut self) {
-        self.open.iter_mut().for_each(|tried| tried.figures = None);
+    pub(super) fn forget_estimates(&mut self) {
+        self.open.iter_mut().for_each(|tried| tried.estimates = None);
     }
 
-    /// Cost on phases left out, and all figures; `taken` says whether it may be.
-    fn figures(&self, before: &Held, tried: &Tried) -> Option<Figures> {
+    /// Cost on phases left out, and all estimates; `taken` says whether it may be.
+    fn estimates(&self, before: &Held, tried: &Tried) -> Option<Estimates> {
         let mut terms = self.terms.clone();
         let first = terms.len();
         terms.extend(&tried.terms);
@@ -261,7 +261,7 @@ impl<'a> LawSearch<'a> {
             && viscous > -SIGN_SHOWN * viscous_std
     }
 
-    /// Friction at rest in the direction where it is less, with its deviation.
+    /// Friction at rest in the direction where it is less, with its standard error.
     fn at_rest(&self, solution: &Solution, tried: LawTerm, first: usize) -> (f64, f64) {
         let mut weight = coulomb_weight(solution);
         let mut at = self.first_added();
@@ -383,7 +383,7 @@ fn late(e: Estimate) -> Estimate {
     Estimate { value: -e.value, std: e.std }
 }
 
-/// The length of `count` amplitudes from `first` on, with its deviation.
+/// The length of `count` amplitudes from `first` on, with its standard error.
 fn amplitude(s: &Solution, first: usize, count: usize) -> Estimate {
     let value = s.value.rows(first, count);
     if count == 1 {
@@ -396,7 +396,7 @@ fn amplitude(s: &Solution, first: usize, count: usize) -> Estimate {
     Estimate { value: size, std: direction.dot(&(block * &direction)).max(0.0).sqrt() }
 }
 
-/// What of each figure Coulomb friction has in the direction where it is less.
+/// What of each estimate Coulomb friction has in the direction where it is less.
 fn coulomb_weight(solution: &Solution) -> DVector<f64> {
     let mut weight = DVector::zeros(solution.value.len());
     weight[2] = 1.0;
@@ -404,7 +404,7 @@ fn coulomb_weight(solution: &Solution) -> DVector<f64> {
     weight
 }
 
-/// A weighted sum of the figures, with its deviation.
+/// A weighted sum of the estimates, with its standard error.
 fn known(solution: &Solution, weight: &DVector<f64>) -> (f64, f64) {
     let variance = weight.dot(&(&solution.covariance * weight));
     (weight.dot(&solution.value), variance.max(0.0).sqrt())

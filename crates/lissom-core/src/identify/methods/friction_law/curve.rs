@@ -20,7 +20,7 @@ const RATIO: f64 = 2.0;
 const MOST: usize = 9;
 /// Quantiles of the windows' speeds at which the first and the last knot stand.
 const ENDS: [f64; 2] = [0.01, 0.99];
-/// Most groups of slip phases that are left out, one after another, for the deviation.
+/// Most groups of slip phases that are left out, one after another, for the standard error.
 const MOST_GROUPS: usize = 100;
 
 /// Friction at one speed in one direction.
@@ -108,7 +108,7 @@ impl CurveSums {
         })
     }
 
-    /// The curve with inertia and couplings from the same windows, and what it leaves. Its deviations are
+    /// The curve with inertia and couplings from the same windows, and what it leaves. Its standard errors are
     /// by leaving out slip phases, and no less than the regression's own.
     pub(super) fn by_phases(&self) -> Option<(Vec<CurvePoint>, f64)> {
         let solution = self.rows.solved(&self.terms)?;
@@ -117,7 +117,7 @@ impl CurveSums {
     }
 
     /// The curve with inertia and couplings of the arm that the output error found, far better known than by
-    /// the slip phases: what they are off by does not go into friction. The deviations are those by leaving out slip
+    /// the slip phases: what they are off by does not go into friction. The standard errors are those by leaving out slip
     /// phases and those of the arm, all longer by one factor where the curve is further from the law that describes the log
     /// than they say: a sensor's steps come back with a repeated motion, alike in all its phases. `None` where the tips do not show all of its coupling torque, at once.
     pub(crate) fn beside_arm(&self, found: &OutputError) -> Option<Vec<CurvePoint>> {
@@ -130,8 +130,8 @@ impl CurveSums {
         let by_arm = found.variances(&|arm| {
             let known = self.known(arm)?;
             let totals = totals.each_ref().map(|sum| without_linear(sum, &known));
-            let figures = values(&totals, terms)?;
-            Some(figures.iter().map(|v| Complex64::new(*v, 0.0)).collect())
+            let estimates = values(&totals, terms)?;
+            Some(estimates.iter().map(|v| Complex64::new(*v, 0.0)).collect())
         })?;
         let variances: Vec<f64> = by_phases.iter().zip(by_arm).map(|(a, b)| a + b).collect();
         let mut points = self.points(&solution, &variances);
@@ -159,7 +159,7 @@ impl CurveSums {
     }
 
     /// A curve by the phases alone, where the arm that the output error found has in it what these windows do not
-    /// show: its deviations are longer by one factor where it is further from the law of that arm than they say.
+    /// show: its standard errors are longer by one factor where it is further from the law of that arm than they say.
     pub(crate) fn beside_law(
         &self,
         mut points: Vec<CurvePoint>,
@@ -173,7 +173,7 @@ impl CurveSums {
         points
     }
 
-    /// How many of their deviations points are off an arm's law of friction, root mean square; one at least.
+    /// How many of their standard errors points are off an arm's law of friction, root mean square; one at least.
     fn beyond_law(&self, points: &[CurvePoint], found: &OutputError) -> Option<f64> {
         let law = found.friction(self.back_emf_viscous);
         let beyond = |p: &CurvePoint| {
@@ -183,7 +183,7 @@ impl CurveSums {
         Some((squares.iter().sum::<f64>() / squares.len().max(1) as f64).sqrt().max(1.0))
     }
 
-    /// The curve of a solution whose last figures are the hats'.
+    /// The curve of a solution whose last estimates are the hats'.
     fn points(&self, solution: &Solution, variances: &[f64]) -> Vec<CurvePoint> {
         let knots = self.knots.len();
         let hats = solution.value.len() - 2 * knots;
@@ -215,15 +215,16 @@ fn without_linear(sums: &Cluster, known: &[(usize, f64)]) -> Cluster {
     Cluster { products: of(&sums.products), noise: of(&sums.noise), ..sums.clone() }
 }
 
-/// Variance of every figure by leaving out one group of slip phases after another: residuals within a
+/// Variance of every estimate by leaving out one group of slip phases after another: residuals within a
 /// group may belong together as they like, and a few phases that carry much count fully.
 fn jackknife(rows: &LawRows, terms: &[Term], full: &Solution) -> Option<Vec<f64>> {
     let phases = rows.blocks().iter().map(|b| b.phase + 1).max()?;
     let groups = phases.min(MOST_GROUPS);
     let sums = rows.sums(2 * groups, |b| 2 * (b.phase % groups) + usize::from(b.sign < 0.0));
     let sums: Vec<[Cluster; 2]> = sums.chunks(2).map(by_direction).collect();
-    let figures = without_each(&sums, terms)?;
-    let square = |i: usize| figures.iter().flatten().map(|v| (v[i] - full.value[i]).powi(2)).sum();
+    let estimates = without_each(&sums, terms)?;
+    let square =
+        |i: usize| estimates.iter().flatten().map(|v| (v[i] - full.value[i]).powi(2)).sum();
     Some((0..terms.len()).map(square).collect())
 }
 

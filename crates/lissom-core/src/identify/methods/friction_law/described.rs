@@ -6,7 +6,7 @@ use crate::identify::methods::friction_law::law_term::Column;
 use crate::identify::methods::friction_law::rows::{Sampled, fixed, used};
 use crate::identify::methods::regression::Term;
 
-/// A law with its figures.
+/// A law with its estimates.
 pub(super) struct Described {
     pub(super) columns: Vec<Column>,
     pub(super) terms: Vec<Term>,

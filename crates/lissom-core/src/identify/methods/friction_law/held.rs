@@ -41,7 +41,7 @@ impl Held {
         self.each.iter().sum()
     }
 
-    /// By how many deviations `other` is better, block by block.
+    /// By how many standard errors `other` is better, block by block.
     pub(super) fn paired(&self, other: &Self) -> f64 {
         let n = self.each.len() as f64;
         let better: Vec<f64> = self.each.iter().zip(&other.each).map(|(a, b)| a - b).collect();
@@ -62,7 +62,7 @@ pub(super) fn by_direction<'a>(clusters: impl IntoIterator<Item = &'a Cluster>) 
     sums
 }
 
-/// Figures with one group of rows after another left out, of which `sums` are the sums; `None` of groups without rows.
+/// Estimates with one group of rows after another left out, of which `sums` are the sums; `None` of groups without rows.
 pub(super) fn without_each(
     sums: &[[Cluster; 2]],
     terms: &[Term],
@@ -79,15 +79,15 @@ pub(super) fn without_each(
         before.push(sum.clone());
         add(&mut sum, own);
     }
-    let mut figures = Vec::with_capacity(sums.len());
+    let mut estimates = Vec::with_capacity(sums.len());
     for (own, mut others) in sums.iter().zip(before).rev() {
         add(&mut others, &after);
         add(&mut after, own);
         let rows: usize = own.iter().map(|c| c.rows).sum();
-        figures.push(if rows == 0 { None } else { Some(values(&others, terms)?) });
+        estimates.push(if rows == 0 { None } else { Some(values(&others, terms)?) });
     }
-    figures.reverse();
-    Some(figures)
+    estimates.reverse();
+    Some(estimates)
 }
 
 /// ‖y − X·q‖² from the products of rows.

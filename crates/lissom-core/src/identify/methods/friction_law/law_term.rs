@@ -14,7 +14,7 @@ pub(crate) const NEAR_REST_STEP: f64 = 0.05;
 pub enum LawTerm {
     /// `s·D·v`: viscous friction is V + D forward and V − D backward.
     ViscousByDirection,
-    /// `s·A·e^{−|v|/v_s}` or `s·A·e^{−(v/v_s)²}`: friction at rest is C + A (A > 0: Stribeck effect).
+    /// `s·A_s·e^{−|v|/v_s}` or `s·A_s·e^{−(v/v_s)²}`: friction at rest is CF + A_s (A_s > 0: Stribeck effect).
     NearRest {
         /// v_s \[rad/s\].
         speed: f64,

@@ -162,7 +162,7 @@ impl LawFit {
     }
 }
 
-/// Curve and law of a campaign whose motor's figures are roughly known, and the sums that the curve is
+/// Curve and law of a campaign whose motor's estimates are roughly known, and the sums that the curve is
 /// from; `None` where slip phases are too few or too short.
 pub(crate) fn friction_law(
     prepared: &Prepared<'_>,

@@ -85,7 +85,7 @@ impl LawSearch<'_> {
         };
         (self.rows, self.terms, self.solution) = (rows, terms, solution);
         self.taken[found].terms.push(turned);
-        self.forget_figures();
+        self.forget_estimates();
     }
 
     /// Puts the one of `others` with which least is left in the place of a term that was taken.
@@ -127,6 +127,6 @@ impl LawSearch<'_> {
             self.solution = solution;
         }
         self.taken[found].term = others[i].0;
-        self.forget_figures();
+        self.forget_estimates();
     }
 }

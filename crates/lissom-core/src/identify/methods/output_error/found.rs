@@ -7,7 +7,7 @@ use crate::identify::estimate::Estimate;
 use crate::identify::interrupt::Interrupt;
 use crate::identify::methods::friction_law::LawTerm;
 use crate::identify::methods::output_error::engine::by_run::ByRun;
-use crate::identify::methods::output_error::engine::covariance::deviation;
+use crate::identify::methods::output_error::engine::covariance::standard_error;
 use crate::identify::methods::output_error::model::fit::{Extension, StageReport};
 use crate::information::{beside, propagated};
 use crate::replay::{ModalArm, Parameter, SensorNoise, Window};
@@ -74,11 +74,11 @@ impl OutputError {
     /// Estimate of a parameter; `None` if it was not free.
     pub fn estimate(&self, parameter: Parameter) -> Option<Estimate> {
         let i = self.parameters.iter().position(|p| *p == parameter)?;
-        Some(Estimate { value: parameter.of(&self.arm), std: deviation(&self.covariance, i) })
+        Some(Estimate { value: parameter.of(&self.arm), std: standard_error(&self.covariance, i) })
     }
 
     /// Estimate of a quantity of the arm, with its standard error from the parameters' covariance.
-    pub fn figure(&self, of: impl Fn(&ModalArm) -> f64) -> Estimate {
+    pub fn estimate_of(&self, of: impl Fn(&ModalArm) -> f64) -> Estimate {
         let std = propagated(&self.arm, &self.parameters, &self.covariance, SLOPE_STEP, &of);
         Estimate { value: of(&self.arm), std }
     }
@@ -91,7 +91,7 @@ impl OutputError {
         of: &dyn Fn(&ModalArm) -> Option<Vec<Complex64>>,
     ) -> Option<Vec<f64>> {
         let slopes = |(i, p): (usize, &Parameter)| {
-            let half = SLOPE_STEP * deviation(&self.covariance, i);
+            let half = SLOPE_STEP * standard_error(&self.covariance, i);
             let (half, [above, below]) = beside(&self.arm, *p, half);
             let (above, below) = (of(&above)?, of(&below)?);
             let slope = |(a, b)| if half > 0.0 { (a - b) / (2.0 * half) } else { Complex64::ZERO };

@@ -3,7 +3,7 @@
 
 mod command_noise;
 mod engine;
-mod figures;
+mod estimates;
 mod follow;
 mod found;
 mod model;

@@ -35,8 +35,8 @@ pub(crate) fn findings(evidence: &Evidence<'_>) -> Vec<Finding> {
         findings.extend(faint_mode(&oe.arm, |p| oe.estimate(p)));
         findings.extend(more_than_noise(campaign, oe));
         findings.extend(damping_kind(oe));
-        let figures = oe.parameters.iter().filter_map(|p| Some((*p, oe.estimate(*p)?)));
-        findings.extend(driving_damper(figures));
+        let estimates = oe.parameters.iter().filter_map(|p| Some((*p, oe.estimate(*p)?)));
+        findings.extend(driving_damper(estimates));
     }
     findings.extend(if oe.end == SearchEnd::Done {
         departs(evidence, oe)
@@ -126,8 +126,8 @@ fn faint_mode(arm: &ModalArm, estimate: impl Fn(Parameter) -> Option<Estimate>) 
 
 /// A damping coefficient is below zero. Dampers of one kind are too large, and one of another kind compensates for
 /// them. Viscous friction and damping ratios are then wrong.
-fn driving_damper(figures: impl Iterator<Item = (Parameter, Estimate)>) -> Option<Finding> {
-    let drives = figures.filter(|(p, e)| p.is_damper() && e.value < -DAMPER_DRIVES * e.std);
+fn driving_damper(estimates: impl Iterator<Item = (Parameter, Estimate)>) -> Option<Finding> {
+    let drives = estimates.filter(|(p, e)| p.is_damper() && e.value < -DAMPER_DRIVES * e.std);
     let (damper, rate_per_s) =
         drives.min_by(|(_, a), (_, b)| (a.value / a.std).total_cmp(&(b.value / b.std)))?;
     Some(Finding::new(OutputErrorFinding::DamperDrives { damper, rate_per_s }))
@@ -163,7 +163,7 @@ fn modes_missing(campaign: &Campaign, oe: &OutputError) -> Option<Finding> {
 /// Damping within the beam cannot be distinguished from damping against the frame. It is a warning if other estimates
 /// depend on it.
 fn damping_kind(oe: &OutputError) -> Option<Finding> {
-    let of_figure = |p: &Parameter| match p {
+    let of_parameter = |p: &Parameter| match p {
         Parameter::Inertia => Some(key::INERTIA),
         Parameter::Viscous | Parameter::ViscousDifference => Some(key::VISCOUS),
         Parameter::Coulomb => Some(key::COULOMB),
@@ -171,7 +171,7 @@ fn damping_kind(oe: &OutputError) -> Option<Finding> {
         _ => None,
     };
     let open = &oe.open_by_damping;
-    let parameters = open.iter().filter_map(of_figure).collect();
+    let parameters = open.iter().filter_map(of_parameter).collect();
     (!open.is_empty()).then(|| Finding::new(OutputErrorFinding::DampingKind { parameters }))
 }
 
@@ -243,14 +243,14 @@ mod tests {
 
     #[test]
     fn a_damper_that_drives_is_said() {
-        let figure = |value: f64, std: f64| Estimate { value, std };
+        let estimate = |value: f64, std: f64| Estimate { value, std };
         let sound = [
-            (Parameter::Offset, figure(-3.0, 0.1)),
-            (Parameter::DampingWithin(0), figure(-0.04, 0.01)),
-            (Parameter::DampingAtPoint(1), figure(0.2, 0.01)),
+            (Parameter::Offset, estimate(-3.0, 0.1)),
+            (Parameter::DampingWithin(0), estimate(-0.04, 0.01)),
+            (Parameter::DampingAtPoint(1), estimate(0.2, 0.01)),
         ];
         assert!(driving_damper(sound.into_iter()).is_none());
-        let drives = [(Parameter::DampingAtPoint(2), figure(-0.011, 0.0003))];
+        let drives = [(Parameter::DampingAtPoint(2), estimate(-0.011, 0.0003))];
         let said = driving_damper(sound.into_iter().chain(drives)).unwrap();
         assert!(said.message().contains("damping-at-point-3"), "{said}");
     }

@@ -103,7 +103,7 @@ impl OtherKind {
 pub(crate) fn undecided(fitting: &Fitting<'_>, fit: &ArmFit) -> Undecided {
     let (sums, promises) = all_scores(fitting, fit, &candidates(fitting, fit));
     let jacobian = fit.body.jacobian(&fit.free);
-    let speaking = promises.iter().filter(|p| p.deviations() > SIGN_SHOWN);
+    let speaking = promises.iter().filter(|p| p.standard_errors() > SIGN_SHOWN);
     let weighed = speaking.map(|p| {
         let moved = &p.moved * p.likelihood().sqrt();
         jacobian.as_ref().map_or(moved.clone(), |jacobian| jacobian * moved)

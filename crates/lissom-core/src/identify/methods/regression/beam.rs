@@ -36,8 +36,8 @@ pub struct BeamRegression {
     pub stiffness: DMatrix<f64>,
 }
 
-/// Fits `θ̈_i = Σ_j â_ij(θ_j − θ_m) − d_i·θ̇_i − e_i·(θ̇_i − θ̇_m) + const` to each tip over all runs, sticking or not,
-/// and computes the modes from Â. d_i is damping against the fixed frame and e_i damping within the beam \[1/s\].
+/// Fits `θ̈_i = Σ_j â_ij(θ_j − θ_m) − e_i·θ̇_i − d_i·(θ̇_i − θ̇_m) + const` to each tip over all runs, sticking or not,
+/// and computes the modes from Â. e_i is damping against the fixed frame and d_i damping within the beam \[1/s\].
 ///
 /// There are as many modes as tips. `None` if a tip is not a calibrated angle or deflection, if there are too few
 /// windows, or if the natural frequencies of Â are not all real and positive.
@@ -94,7 +94,7 @@ fn on_windows(campaign: &Campaign, noise: &[RunNoise]) -> Option<BeamRegression>
     let damping: Vec<f64> =
         scans.iter().map(|s| s.solution.value[n] + within(s, n).unwrap_or_default()).collect();
     let modes = modes(&stiffness, &damping)?;
-    let std = deviations(&scans, &stiffness, &damping, &modes)?;
+    let std = standard_errors(&scans, &stiffness, &damping, &modes)?;
     let chosen = |s: &Scan| s.candidates[s.chosen].clone();
     Some(BeamRegression {
         window_s: scans.iter().map(|s| chosen(s).window_s).collect(),
@@ -140,8 +140,8 @@ fn modes(stiffness: &DMatrix<f64>, damping: &[f64]) -> Option<Vec<(f64, f64)>> {
     Some(poles.iter().map(|p| (p.norm(), -p.re / p.norm())).collect())
 }
 
-/// First-order deviations of the modes from those of the regression, by finite differences.
-fn deviations(
+/// First-order standard errors of the modes from those of the regression, by finite differences.
+fn standard_errors(
     scans: &[Scan],
     stiffness: &DMatrix<f64>,
     damping: &[f64],
@@ -150,7 +150,7 @@ fn deviations(
     let n = scans.len();
     let mut variance = vec![(0.0, 0.0); n];
     for (i, scan) in scans.iter().enumerate() {
-        // Gradient of every mode with respect to row i's parameters â_i1..â_in, d_i.
+        // Gradient of every mode with respect to row i's parameters â_i1..â_in, e_i.
         let gradients: Vec<Vec<(f64, f64)>> = (0..=n)
             .map(|j| {
                 let (mut k, mut d) = (stiffness.clone(), damping.to_vec());

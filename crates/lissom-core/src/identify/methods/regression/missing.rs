@@ -91,7 +91,7 @@ pub struct MissingTerm {
     /// Changes of the estimates of inertia, viscous and Coulomb friction when the term is added.
     pub moves: [Moved; 3],
     /// Coefficient divided by its standard error \[1\].
-    pub deviations: f64,
+    pub standard_errors: f64,
     /// Residual with the term divided by the residual without it \[1\].
     pub residual_ratio: f64,
     /// Length of the windows in which the term is found \[s\].
@@ -185,7 +185,7 @@ pub(super) fn missing_term(
                 _ => value,
             },
             moves,
-            deviations: value.abs() / std,
+            standard_errors: value.abs() / std,
             residual_ratio,
             window_s,
         })

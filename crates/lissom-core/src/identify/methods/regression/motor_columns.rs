@@ -85,7 +85,7 @@ impl MotorColumns {
         self.mode.then(|| ModeColumns::from(self.before_mode()))
     }
 
-    /// J, V, C, offset, κ_i, g_s and g_c, and those of a mode: `dry` is the term of C.
+    /// J, V, CF, offset, κ_i, g_s and g_c, and those of a mode: `dry` is the term of CF.
     pub(crate) fn terms(&self, dry: Term) -> Vec<Term> {
         let mut terms = vec![Term::Plain(INERTIA), Term::Plain(VISCOUS), dry, Term::Plain(DRY)];
         terms.extend((FIRST_TIP..self.count()).map(Term::Plain));

@@ -222,7 +222,7 @@ pub(crate) struct Scores {
 /// Solves for `terms` from the clusters' sums; `None` without rows or a right side of zero.
 ///
 /// The sensors' noise is taken out of the regressors' products, in those directions that it does not
-/// fill: in the others the figures fall short by its share there, and what that may be counts in their
+/// fill: in the others the estimates fall short by its share there, and what that may be counts in their
 /// covariance.
 pub(crate) fn solve(clusters: &[Cluster], terms: &[Term]) -> Option<Solution> {
     let p = terms.len();
@@ -464,7 +464,7 @@ mod tests {
     const BOTH: [Term; 2] = [Term::Plain(0), Term::Plain(1)];
 
     #[test]
-    fn noise_in_a_regressor_does_not_shrink_its_figure() {
+    fn noise_in_a_regressor_does_not_shrink_its_estimate() {
         let s = solve(&noisy(0.5), &BOTH).unwrap();
         assert!((s.value[0] - 2.0).abs() < 1e-9 && (s.value[1] - 0.3).abs() < 1e-9, "{}", s.value);
     }

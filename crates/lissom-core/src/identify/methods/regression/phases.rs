@@ -244,7 +244,7 @@ mod tests {
         assert!(phases[1].from - phases[0].to < smooth, "{phases:?}");
     }
 
-    /// Numbers of mean 0 and deviation 1.
+    /// Numbers of mean 0 and standard error 1.
     fn draws() -> impl FnMut() -> f64 {
         let mut source = Xoshiro256PlusPlus::seed_from_u64(1);
         move || StandardNormal.sample(&mut source)

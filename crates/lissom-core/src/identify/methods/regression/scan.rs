@@ -39,14 +39,14 @@ pub(crate) struct Scan {
     pub(crate) candidates: Vec<Candidate>,
     pub(crate) chosen: usize,
     pub(crate) solution: Solution,
-    /// Change of each figure from the next shorter to the next longer window.
+    /// Change of each estimate from the next shorter to the next longer window.
     pub(crate) change: Vec<f64>,
 }
 
 /// Tries windows each √2 shorter than the one before, from the longest of which a few phases hold one
-/// down to ten samples; takes the one with the least sensitivity in the figures marked by `counts`.
+/// down to ten samples; takes the one with the least sensitivity in the estimates marked by `counts`.
 ///
-/// Below some length the figures scatter the more the shorter a window is: none is tried beyond one
+/// Below some length the estimates scatter the more the shorter a window is: none is tried beyond one
 /// whose growing scatter alone is well over the least sensitivity, or where it grows and all is far over it.
 ///
 /// With `given` lengths only these are taken, each between neighbours that tell its sensitivity.
@@ -92,12 +92,12 @@ pub(crate) fn scan(
     choose(tried.make_contiguous(), counts, None)
 }
 
-/// Root mean square over the figures that count of what `of` says of each, relative to its size; `None`
+/// Root mean square over the estimates that count of what `of` says of each, relative to its size; `None`
 /// where all of them are inseparable.
 fn relative(s: &Solution, counts: &[bool], of: impl Fn(usize, f64) -> f64) -> Option<f64> {
     let (mut sum, mut number) = (0.0, 0.0);
     for (i, _) in counts.iter().enumerate().filter(|(_, c)| **c) {
-        // A figure that is zero within its scatter must not decide.
+        // An estimate that is zero within its scatter must not decide.
         let variance = s.covariance[(i, i)].max(0.0);
         let size = s.value[i].abs().max(3.0 * variance.sqrt());
         if !s.inseparable[i] && size > 0.0 {
@@ -108,13 +108,13 @@ fn relative(s: &Solution, counts: &[bool], of: impl Fn(usize, f64) -> f64) -> Op
     (number > 0.0).then(|| (sum / number).sqrt())
 }
 
-/// Root mean square of the figures' relative deviations.
+/// Root mean square of the estimates' relative deviations.
 fn scatter(s: &Solution, counts: &[bool]) -> Option<f64> {
     relative(s, counts, |_, variance| variance)
 }
 
-/// Root mean square of the figures' relative change from neighbour to neighbour and of their relative
-/// deviations; infinite at the ends.
+/// Root mean square of the estimates' relative change from neighbour to neighbour and of their relative
+/// standard errors; infinite at the ends.
 fn sensitivity(tried: &[(f64, Solution)], k: usize, counts: &[bool]) -> f64 {
     if k == 0 || k + 1 >= tried.len() {
         return f64::INFINITY;
@@ -158,7 +158,7 @@ fn choose(tried: &[(f64, Solution)], counts: &[bool], given: Option<f64>) -> Opt
     Some(Scan { candidates, chosen, solution, change })
 }
 
-/// Change of each figure from the next shorter to the next longer window; twice that to the one neighbour where there
+/// Change of each estimate from the next shorter to the next longer window; twice that to the one neighbour where there
 /// is only one.
 pub(super) fn change(
     shorter: Option<&Solution>,

@@ -27,7 +27,7 @@ pub(crate) struct AtOnce {
 /// unknown the motor alone says how much torque goes through each. A delay of the command, which bends
 /// inertia and viscous friction, is fitted where it lowers the information criterion by 8.
 ///
-/// Either side counts by its deviations, stretched to what it leaves of its own accord. `None` where one of
+/// Either side counts by its standard errors, stretched to what it leaves of its own accord. `None` where one of
 /// them is too few frequencies.
 ///
 /// # Source
@@ -152,7 +152,7 @@ impl JointProblem<'_> {
         slopes.iter().all(|v| v.is_finite()).then_some(slopes)
     }
 
-    /// The fits of either side, with deviations that count those of the poles and the delay.
+    /// The fits of either side, with standard errors that count those of the poles and the delay.
     fn finished(&self, tips: &[TipData], start: &BeamFit) -> Option<AtOnce> {
         let linear = self.linear()?;
         let free = linear.left.len().saturating_sub(self.unknowns()).max(1) as f64;

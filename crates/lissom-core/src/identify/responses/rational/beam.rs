@@ -241,7 +241,7 @@ impl BeamProblem<'_> {
             }
         }
     }
-    /// Whether each mode has a residue in some tip that stands clear of its deviation.
+    /// Whether each mode has a residue in some tip that stands clear of its standard error.
     fn all_residues_are_there(&self) -> bool {
         let Some((jacobian, residuals)) = self.jacobian().zip(self.residuals()) else {
             return false;

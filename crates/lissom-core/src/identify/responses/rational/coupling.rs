@@ -28,7 +28,7 @@ const DIFFERENCE: f64 = 1e-6;
 pub(crate) struct CouplingFit {
     /// J, V, then c_k of each pole.
     pub(crate) value: DVector<f64>,
-    /// Their covariance where the poles are known, from the responses' deviations, stretched where more is
+    /// Their covariance where the poles are known, from the responses' standard errors, stretched where more is
     /// left.
     pub(crate) covariance: DMatrix<f64>,
     /// Their slopes by the poles' unknowns, in the order of [`SharedPoles::covariance`].
@@ -37,22 +37,22 @@ pub(crate) struct CouplingFit {
     pub(crate) damping_within: Vec<f64>,
     /// By how much the motor comes later than the command, where the response calls for it \[s\].
     pub(crate) delay_s: Option<Estimate>,
-    /// How many deviations a torque against the motion that does not grow with its speed, Coulomb friction left
+    /// How many standard errors a torque against the motion that does not grow with its speed, Coulomb friction left
     /// in, is from zero: the farther one of an amplitude of the angle that is the same at all frequencies, and
     /// of one of the command.
     pub(crate) friction_left: f64,
-    /// Root mean square of the residuals in the responses' deviations, the unknowns counted.
+    /// Root mean square of the residuals in the responses' standard errors, the unknowns counted.
     pub(crate) weighted_rms: f64,
-    /// Bayesian information criterion, deviations known but for one factor.
+    /// Bayesian information criterion, standard errors known but for one factor.
     pub(crate) criterion: f64,
 }
 
 /// Step 6(c): J, V and c_k from the motor's response once the poles are known. `None` where the
 /// frequencies are too few, or a response is zero.
 ///
-/// The torque per angle is linear in them, and its least squares the start; the figures are those most likely
+/// The torque per angle is linear in them, and its least squares the start; the estimates are those most likely
 /// by the response itself, whose errors are large where it is small. ζ_w, the part of each damping ratio that is
-/// within the beam, is free with the deviation that the points leave it; so is a delay where the response
+/// within the beam, is free with the standard error that the points leave it; so is a delay where the response
 /// calls for one.
 ///
 /// `beyond` are poles that stand for modes above the frequencies measured: they carry torque within them, and
@@ -72,7 +72,7 @@ pub(crate) fn fit_coupling(
         let turn = highest * late.values.delay_s.unwrap_or(0.0).abs();
         late.criterion < prompt.criterion - MOTOR_DELAY_CALLED_FOR && turn > LEAST_TURN
     });
-    motor.figures(&late.unwrap_or(prompt))
+    motor.estimates(&late.unwrap_or(prompt))
 }
 
 /// Torque per angle and c_k of a mode, `(1 + 2ζ_w·s/ω)·(s² + 2(ζ − ζ_w)ω·s)/(s² + 2ζω·s + ω²)`: ζ_w of its damping
@@ -102,7 +102,7 @@ struct Values {
 
 struct FittedCoupling {
     values: Values,
-    /// Slopes of the model by the unknowns over deviations, two rows a frequency; a row more of each ζ_w.
+    /// Slopes of the model by the unknowns over standard errors, two rows a frequency; a row more of each ζ_w.
     rows: ResponseRows,
     /// (AᵀA)⁻¹ of the rows.
     inverse: DMatrix<f64>,
@@ -140,7 +140,7 @@ impl<'a> Motor<'a> {
         (0..self.fit.within.len()).filter(|k| self.fit.within[*k].std > 0.0)
     }
 
-    /// Residuals and slopes over deviations; a ζ_w has a row of its own, in which `spread` deviations of the
+    /// Residuals and slopes over standard errors; a ζ_w has a row of its own, in which `spread` standard errors of the
     /// responses count as one.
     fn rows(&self, values: &Values, spread: f64) -> ResponseRows {
         let frequencies = self.data.response.len();
@@ -164,9 +164,9 @@ impl<'a> Motor<'a> {
                 let share = own * own / self.poles[k].denominator(w);
                 values.torque[2 + k] * turned * (1.0 - 2.0 * through * share)
             });
-            let by_figures = of_torques.chain(of_within).map(|z| by_torque * z);
+            let by_estimates = of_torques.chain(of_within).map(|z| by_torque * z);
             let by_delay = values.delay_s.map(|_| -s * model);
-            for (k, z) in by_figures.chain(by_delay).enumerate() {
+            for (k, z) in by_estimates.chain(by_delay).enumerate() {
                 (a[(2 * i, k)], a[(2 * i + 1, k)]) = (weight * z.re, weight * z.im);
             }
             let left = weight * (r.value - model);
@@ -174,7 +174,7 @@ impl<'a> Motor<'a> {
             weights.push(weight);
         }
         for (row, &k) in free.iter().enumerate() {
-            // Either part of a response has 1/√2 of its deviation.
+            // Either part of a response has 1/√2 of its standard error.
             let weight = spread * std::f64::consts::FRAC_1_SQRT_2 / self.fit.within[k].std;
             a[(2 * frequencies + row, torques + row)] = weight;
             b[2 * frequencies + row] = weight * (self.fit.within[k].value - values.within[k]);
@@ -182,7 +182,7 @@ impl<'a> Motor<'a> {
         ResponseRows { a, b, weights }
     }
 
-    /// The torque per angle by linear least squares, each response with the deviation that it would have if
+    /// The torque per angle by linear least squares, each response with the standard error that it would have if
     /// the torque were that of `before`; its own at first.
     fn linear(&self, before: Option<&Values>) -> Option<Values> {
         let start = Values {
@@ -305,16 +305,16 @@ impl<'a> Motor<'a> {
         slopes
     }
 
-    fn figures(&self, fitted: &FittedCoupling) -> Option<CouplingFit> {
+    fn estimates(&self, fitted: &FittedCoupling) -> Option<CouplingFit> {
         let FittedCoupling { values, rows, inverse, .. } = fitted;
         let stretch = 0.5 * fitted.weighted_rms.max(1.0).powi(2);
         let slopes = self.by_poles(values, rows);
         let moved = -(inverse * rows.a.tr_mul(&slopes));
-        let (figures, poles) = (2 + self.fit.poles.len(), self.fit.poles.len());
+        let (estimates, poles) = (2 + self.fit.poles.len(), self.fit.poles.len());
         let beyond = self.poles.get(poles..).unwrap_or_default();
         let torques = values.torque.len();
         let within =
-            DMatrix::from_fn(figures, rows.a.ncols(), |i, j| match j.checked_sub(figures) {
+            DMatrix::from_fn(estimates, rows.a.ncols(), |i, j| match j.checked_sub(estimates) {
                 Some(b) if i == 0 && j < torques => beyond[b].omega_rad_s.powi(-2),
                 _ => f64::from(i == j && j < torques),
             });
@@ -344,7 +344,7 @@ impl<'a> Motor<'a> {
         let mut all = DMatrix::zeros(rows.a.nrows(), unknowns + poles);
         all.columns_mut(0, unknowns).copy_from(&rows.a);
         all.columns_mut(unknowns, poles).copy_from(slopes);
-        let deviations = |same_command: bool| {
+        let standard_errors = |same_command: bool| {
             let mut column = DVector::zeros(rows.a.nrows());
             for (i, (&w, weight)) in self.data.omega_rad_s.iter().zip(&rows.weights).enumerate() {
                 let torque = self.torque(values, w);
@@ -361,7 +361,7 @@ impl<'a> Motor<'a> {
             let there = alone.norm() > 1e-6 * column.norm();
             there.then(|| alone.dot(&rows.b) / (spread * alone.norm()))
         };
-        let each = [false, true].into_iter().filter_map(deviations);
+        let each = [false, true].into_iter().filter_map(standard_errors);
         each.max_by(|a, b| a.abs().total_cmp(&b.abs())).unwrap_or(0.0)
     }
 }

@@ -29,7 +29,7 @@ pub fn fit_shared_poles_by_evidence(
 /// The same with [`Damping::Small`], and where the data call for it with a delay of each output, or with terms
 /// in s in the residues.
 ///
-/// To first order a delay is such terms, `κ_ik = −τ_i·ω_k·ρ_ik`: both at once cannot be told apart. Where both
+/// To first order a delay is such terms, `ρ'_ik = −τ_i·ω_k·ρ_ik`: both at once cannot be told apart. Where both
 /// would do, terms that damping of a beam can make are taken for them.
 pub(crate) fn fit_shared_poles_with_delays(
     omega_rad_s: &[f64],
@@ -101,7 +101,7 @@ fn by_evidence(
 }
 
 impl SharedPoles {
-    /// ζ_w of each pole: of its damping ratio what is within the beam, `κ_ik = 2ζ_w·ρ_ik` over all outputs, and no
+    /// ζ_w of each pole: of its damping ratio what is within the beam, `ρ'_ik = 2ζ_w·ρ_ik` over all outputs, and no
     /// farther from none and all than that leaves room for.
     fn rooms(&self) -> Vec<Estimate> {
         let room = |k: usize| {
@@ -129,7 +129,7 @@ impl SharedPoles {
         self
     }
 
-    /// Largest delay of output `i` \[s\] that terms in s leave room for: with `2ζ_w = κ_ik/ρ_ik + τ_i·ω_k` the damping
+    /// Largest delay of output `i` \[s\] that terms in s leave room for: with `2ζ_w = ρ'_ik/ρ_ik + τ_i·ω_k` the damping
     /// within the beam stays between none and all of every mode.
     pub(crate) fn hidden_delay_s(&self, i: usize) -> f64 {
         let (mut early, mut late) = (f64::INFINITY, f64::INFINITY);
@@ -146,7 +146,7 @@ impl SharedPoles {
         if most.is_finite() { most } else { 0.0 }
     }
 
-    /// Gains' deviations with what such a delay does to them beside terms in s, `ρ_ik·(τ_i·ω_k)²/2`.
+    /// Gains' standard errors with what such a delay does to them beside terms in s, `ρ_ik·(τ_i·ω_k)²/2`.
     fn counting_hidden_delays(mut self) -> Self {
         self.within = self.rooms();
         let modes = self.poles.len();

@@ -91,10 +91,10 @@ impl MotorFit {
         self.transfer_function.response(omega_rad_s) * Complex64::cis(-omega_rad_s * delay_s)
     }
 
-    /// The model that the regression's figures make: rigid, or with the one mode of `pole` through
+    /// The model that the regression's estimates make: rigid, or with the one mode of `pole` through
     /// which the beam is coupled. The command's `torque_per_command` and the damping of its
     /// back-EMF, `back_emf_viscous`, are those of the channel.
-    pub(crate) fn of_figures(
+    pub(crate) fn of_estimates(
         inertia: Estimate,
         viscous: Estimate,
         mode: Option<(Pole, Estimate)>,
@@ -155,7 +155,7 @@ fn coupling_shape(pole: &Pole, omega: f64) -> Complex64 {
 pub(super) struct ResponseRows {
     pub(super) a: DMatrix<f64>,
     pub(super) b: DVector<f64>,
-    /// One over the deviation of the torque per angle, of each frequency.
+    /// One over the standard error of the torque per angle, of each frequency.
     pub(super) weights: Vec<f64>,
 }
 
@@ -292,15 +292,15 @@ pub(super) fn finish(
 ) -> MotorFit {
     let weighted_rms = s.weighted_rms();
     let spread = weighted_rms.max(1.0);
-    let figure = |i: usize| Estimate {
+    let estimate = |i: usize| Estimate {
         value: s.value[i],
         std: spread * s.covariance[(i, i)].max(0.0).sqrt(),
     };
-    let coupling: Vec<Estimate> = (0..poles.len()).map(|k| figure(2 + k)).collect();
+    let coupling: Vec<Estimate> = (0..poles.len()).map(|k| estimate(2 + k)).collect();
     let values: Vec<f64> = coupling.iter().map(|c| c.value).collect();
     MotorFit {
-        inertia: figure(0),
-        viscous: figure(1),
+        inertia: estimate(0),
+        viscous: estimate(1),
         coupling,
         poles: poles.to_vec(),
         poles_given,

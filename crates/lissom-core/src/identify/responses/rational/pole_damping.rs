@@ -21,7 +21,7 @@ impl Damping {
         }
     }
 
-    /// Figures of a residue.
+    /// Estimates of a residue.
     pub(crate) fn terms(self) -> usize {
         match self {
             Self::None | Self::Small => 1,

@@ -29,9 +29,9 @@ const FARTHEST: f64 = 0.5;
 /// Poles with the residues that are best at them.
 pub(super) struct PolePoint {
     pub(super) poles: Vec<Pole>,
-    /// Of output i (outer): `ρ_ik = r_ik/ω_k²` of each pole k, then κ_ik of each where the residues have terms in
+    /// Of output i (outer): `ρ_ik = r_ik/ω_k²` of each pole k, then ρ'_ik of each where the residues have terms in
     /// s, then the delay not yet taken out where one is looked for, in 1/ω of the highest frequency.
-    pub(super) own_figures: Vec<DVector<f64>>,
+    pub(super) own_estimates: Vec<DVector<f64>>,
     /// Squares of the residuals, each part in its deviations.
     pub(super) cost: f64,
     /// By ln ω_k and, of damped poles, ζ_k, the gains eliminated.
@@ -56,7 +56,7 @@ pub(super) fn refined_with_delays(
     let highest = data.range().1;
     for _ in 0..TURNS {
         let point = refined(data, poles, damping)?;
-        let each = data.outputs.iter().zip(&point.own_figures);
+        let each = data.outputs.iter().zip(&point.own_estimates);
         let late = each.map(|(output, own)| match output.delay_s {
             Some(_) => own.iter().next_back().copied().unwrap_or(0.0),
             None => 0.0,
@@ -126,7 +126,7 @@ impl PolePoint {
         })?;
         let mut found = Self {
             poles,
-            own_figures: Vec::new(),
+            own_estimates: Vec::new(),
             cost: 0.0,
             normal: DMatrix::zeros(unknowns, unknowns),
             right: DVector::zeros(unknowns),
@@ -136,7 +136,7 @@ impl PolePoint {
             found.normal += one.normal;
             found.right += one.right;
             found.cost += one.cost;
-            found.own_figures.push(one.figures);
+            found.own_estimates.push(one.estimates);
             found.own.push(one.own);
         }
         (found.cost.is_finite()).then_some(found)
@@ -158,40 +158,40 @@ impl PolePoint {
 
     /// The model of one output without delay, as the data are weighted.
     fn weighted_model(&self, data: &Weighted, output: usize) -> Vec<Complex64> {
-        let (figures, count) = (&self.own_figures[output], self.poles.len());
+        let (estimates, count) = (&self.own_estimates[output], self.poles.len());
         let delayed = usize::from(data.outputs[output].delay_s.is_some());
-        let in_s = figures.len() - delayed > count;
+        let in_s = estimates.len() - delayed > count;
         let at = |(omega, weight): (&f64, &f64)| {
             let part = |(k, pole): (usize, &Pole)| {
                 let w = pole.omega_rad_s;
-                let term = if in_s { figures[count + k] * w * omega } else { 0.0 };
-                Complex64::new(figures[k] * w * w, term) / pole.denominator(*omega)
+                let term = if in_s { estimates[count + k] * w * omega } else { 0.0 };
+                Complex64::new(estimates[k] * w * w, term) / pole.denominator(*omega)
             };
             weight * self.poles.iter().enumerate().map(part).sum::<Complex64>()
         };
         data.omega.iter().zip(&data.outputs[output].weights).map(at).collect()
     }
 
-    /// Where the figures of each output begin in the covariance, and its size.
+    /// Where the estimates of each output begin in the covariance, and its size.
     pub(super) fn places(&self) -> (Vec<usize>, usize) {
         let mut next = self.normal.nrows();
-        let mut begin = |figures: &DVector<f64>| {
-            next += figures.len();
-            next - figures.len()
+        let mut begin = |estimates: &DVector<f64>| {
+            next += estimates.len();
+            next - estimates.len()
         };
-        let places = self.own_figures.iter().map(&mut begin).collect();
+        let places = self.own_estimates.iter().map(&mut begin).collect();
         (places, next)
     }
 
-    /// Covariance of ln ω_k (and ζ_k), pole by pole, and then of each output's own figures, where each response
-    /// has the deviation it claims.
+    /// Covariance of ln ω_k (and ζ_k), pole by pole, and then of each output's own estimates, where each response
+    /// has the standard error it claims.
     pub(super) fn covariance(&self) -> Option<DMatrix<f64>> {
         let poles = self.normal.nrows();
         let of_poles = self.normal.clone().cholesky()?.inverse();
         let (places, size) = self.places();
         let mut all = DMatrix::zeros(size, size);
         all.view_mut((0, 0), (poles, poles)).copy_from(&of_poles);
-        // ∂figures/∂poles of the best figures.
+        // ∂estimates/∂poles of the best estimates.
         let slopes: Vec<DMatrix<f64>> =
             self.own.iter().map(|own| -own.factor.solve(&own.across)).collect();
         for (i, slope) in slopes.iter().enumerate() {
@@ -245,9 +245,9 @@ fn columns(data: &Weighted, poles: &[Pole], damping: Damping) -> DMatrix<f64> {
     DMatrix::from_vec(2 * points, count, columns)
 }
 
-/// What one output says of the poles, its own figures at their best.
+/// What one output says of the poles, its own estimates at their best.
 struct OneOutput {
-    figures: DVector<f64>,
+    estimates: DVector<f64>,
     cost: f64,
     normal: DMatrix<f64>,
     right: DVector<f64>,
@@ -286,17 +286,17 @@ impl OneOutput {
         }
         let linear = products(&all, 2 * points);
         let factor = linear.view((1, 1), (own, own)).into_owned().cholesky()?;
-        let figures = factor.solve(&linear.view((1, 0), (own, 1)).column(0));
+        let estimates = factor.solve(&linear.view((1, 0), (own, 1)).column(0));
         let (left, basis) = all.split_at_mut(2 * points);
-        for (column, figure) in basis.chunks_exact(2 * points).zip(&figures) {
-            left.iter_mut().zip(column).for_each(|(left, part)| *left -= figure * part);
+        for (column, estimate) in basis.chunks_exact(2 * points).zip(&estimates) {
+            left.iter_mut().zip(column).for_each(|(left, part)| *left -= estimate * part);
         }
         for slope in 0..unknowns {
             let pole = slope / damping.unknowns();
-            push(&mut all, gains + slope, figures[pole]);
+            push(&mut all, gains + slope, estimates[pole]);
             if damping == Damping::Within {
                 let sum = all.len() - 2 * points;
-                push(&mut all, gains + unknowns + slope, figures[count + pole]);
+                push(&mut all, gains + unknowns + slope, estimates[count + pole]);
                 let (sums, more) = all[sum..].split_at_mut(2 * points);
                 sums.iter_mut().zip(more).for_each(|(sum, part)| *sum += *part);
                 all.truncate(sum + 2 * points);
@@ -311,7 +311,7 @@ impl OneOutput {
             normal: normal - eliminated.tr_mul(&eliminated),
             // Left is across the basis: nothing of it is eliminated.
             right: products.view((1 + own, 0), (unknowns, 1)).column(0).into_owned(),
-            figures,
+            estimates,
             own: Own { factor, across },
         })
     }

@@ -33,7 +33,7 @@ pub enum Spurious {
 
 /// Poles that are common to all outputs, and their residues.
 ///
-/// `H_i(s) = e^(−s·τ_i)·Σ_k (ρ_ik·ω_k² + κ_ik·ω_k·s)/(s² + 2ζ_kω_k·s + ω_k²)` with real ρ_ik and κ_ik. κ_ik is zero
+/// `H_i(s) = e^(−s·τ_i)·Σ_k (ρ_ik·ω_k² + ρ'_ik·ω_k·s)/(s² + 2ζ_kω_k·s + ω_k²)` with real ρ_ik and ρ'_ik. ρ'_ik is zero
 /// except with [`Damping::Within`]; it is `2ζ_kρ_ik` if all damping of a mode is within the beam. τ_i is zero unless a
 /// delay was searched for.
 #[derive(Debug, Clone)]
@@ -43,7 +43,7 @@ pub struct SharedPoles {
     /// Static gain ρ_ik of output i (outer index) and pole k, in the unit of the response;
     /// their sum is the response at rest.
     pub static_gains: Vec<Vec<f64>>,
-    /// κ_ik of output i (outer index) and pole k with [`Damping::Within`]; zero otherwise.
+    /// ρ'_ik of output i (outer index) and pole k with [`Damping::Within`]; zero otherwise.
     pub in_s: Vec<Vec<Estimate>>,
     /// ζ_w of each pole: of its damping ratio what is within the beam, with the room that the responses leave it;
     /// zero and known where they were not asked.
@@ -154,7 +154,7 @@ fn for_few_readings(readings: usize, unknowns: usize, cost: f64) -> f64 {
     information(readings, unknowns, cost) + p * n.ln() * (n / free - 1.0)
 }
 
-/// Figures of so many poles, their residues and the delays.
+/// Estimates of so many poles, their residues and the delays.
 fn unknowns(data: &Weighted, modes: usize, damping: Damping) -> usize {
     modes * (damping.unknowns() + data.outputs.len() * damping.terms()) + data.delays()
 }
@@ -237,16 +237,18 @@ impl SharedPoles {
         let std = |at: usize| covariance[(at, at)].max(0.0).sqrt();
         let (places, _) = point.places();
         let (mut gains, mut in_s, mut delays_s) = (Vec::new(), Vec::new(), Vec::new());
-        for ((figures, first), output) in point.own_figures.iter().zip(&places).zip(&data.outputs) {
-            gains.push(figures.iter().take(modes).copied().collect());
+        for ((estimates, first), output) in
+            point.own_estimates.iter().zip(&places).zip(&data.outputs)
+        {
+            gains.push(estimates.iter().take(modes).copied().collect());
             let term = |k: usize| match damping {
                 Damping::Within => {
-                    Estimate { value: figures[modes + k], std: std(first + modes + k) }
+                    Estimate { value: estimates[modes + k], std: std(first + modes + k) }
                 }
                 Damping::None | Damping::Small => Estimate { value: 0.0, std: 0.0 },
             };
             in_s.push((0..modes).map(term).collect());
-            let last = first + figures.len() - 1;
+            let last = first + estimates.len() - 1;
             let late = |value: f64| Estimate { value, std: std(last) / data.range().1 };
             delays_s.push(output.delay_s.map(late));
         }
@@ -267,12 +269,12 @@ impl SharedPoles {
         })
     }
 
-    /// Bayesian information criterion, deviations known but for one factor.
+    /// Bayesian information criterion, standard errors known but for one factor.
     pub(crate) fn criterion(&self) -> f64 {
         self.criterion
     }
 
-    /// Deviation of unknown `i` of the covariance.
+    /// Standard error of unknown `i` of the covariance.
     fn deviation(&self, i: usize) -> f64 {
         self.covariance[(i, i)].max(0.0).sqrt()
     }
@@ -356,7 +358,7 @@ impl SharedPoles {
         }
     }
 
-    /// The same without delay, and with of κ_ik only what damping of a beam can make it: of ρ_ik's sign and no
+    /// The same without delay, and with of ρ'_ik only what damping of a beam can make it: of ρ_ik's sign and no
     /// larger than `2ζ_kρ_ik`.
     pub(crate) fn damped_response(&self, i: usize, omega_rad_s: f64) -> Complex64 {
         self.with_terms(i, omega_rad_s, |k| {

@@ -85,7 +85,7 @@ impl Weighted {
         }
     }
 
-    /// Figures that an output has beside the poles' gains.
+    /// Estimates that an output has beside the poles' gains.
     pub(super) fn delays(&self) -> usize {
         self.outputs.iter().filter(|o| o.delay_s.is_some()).count()
     }

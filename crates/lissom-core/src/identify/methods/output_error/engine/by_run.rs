@@ -108,8 +108,8 @@ impl ByRun {
         let Inverse { matrix, lost } = inverted(&normal);
         let slopes = self.jacobian.tr_mul(slopes);
         let mut found = slopes.tr_mul(&(matrix * &slopes));
-        for (i, of_figure) in slopes.column_iter().enumerate() {
-            if of_figure.iter().zip(&lost).any(|(slope, lost)| *lost && *slope != 0.0) {
+        for (i, of_parameter) in slopes.column_iter().enumerate() {
+            if of_parameter.iter().zip(&lost).any(|(slope, lost)| *lost && *slope != 0.0) {
                 found[(i, i)] = f64::INFINITY;
             }
         }

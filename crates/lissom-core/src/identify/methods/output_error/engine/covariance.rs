@@ -85,7 +85,7 @@ impl Covariances {
 }
 
 /// Standard error of parameter `i`.
-pub(crate) fn deviation(covariance: &DMatrix<f64>, i: usize) -> f64 {
+pub(crate) fn standard_error(covariance: &DMatrix<f64>, i: usize) -> f64 {
     covariance[(i, i)].max(0.0).sqrt()
 }
 

@@ -25,10 +25,10 @@ pub(crate) fn steps(campaign: &Campaign) -> Vec<f64> {
 }
 
 /// Median over the runs of a quantity of each channel, motor first, then tips.
-fn each_channel(campaign: &Campaign, figure: &dyn Fn(&[f64]) -> f64) -> Vec<f64> {
+fn each_channel(campaign: &Campaign, estimate: &dyn Fn(&[f64]) -> f64) -> Vec<f64> {
     let channel = |c: usize, run: &Run| match c.checked_sub(1) {
-        None => figure(run.motor()),
-        Some(tip) => figure(&run.tips()[tip]),
+        None => estimate(run.motor()),
+        Some(tip) => estimate(&run.tips()[tip]),
     };
     (0..=campaign.channels.tips.len())
         .map(|c| {

@@ -1,6 +1,6 @@
 //! Choice between the kinds of damping.
 
-use crate::identify::methods::output_error::engine::covariance::deviation;
+use crate::identify::methods::output_error::engine::covariance::standard_error;
 use crate::identify::methods::output_error::model::fit::{ArmFit, Report};
 use crate::identify::methods::output_error::model::fitting::Fitting;
 use crate::identify::thresholds::SIGN_SHOWN;
@@ -54,7 +54,7 @@ pub(crate) fn drop_dampers(fitting: &Fitting<'_>, fit: &mut ArmFit, report: &mut
     let covariance = fitting.covariances(fit).larger();
     let nothing = |kind: &fn(&Parameter) -> bool| {
         let mut own = fit.free.iter().enumerate().filter(|(_, p)| kind(p));
-        own.all(|(i, p)| p.of(&fit.body.arm) < SIGN_SHOWN * deviation(&covariance, i))
+        own.all(|(i, p)| p.of(&fit.body.arm) < SIGN_SHOWN * standard_error(&covariance, i))
     };
     let Some(gone) = kinds.iter().find(|kind| fit.free.iter().any(kind) && nothing(kind)) else {
         return;

@@ -1,6 +1,6 @@
 //! Parameters beyond the simplest law, added if the residual shows them.
 
-use crate::identify::methods::output_error::engine::covariance::deviation;
+use crate::identify::methods::output_error::engine::covariance::standard_error;
 use crate::identify::methods::output_error::model::fit::{ArmFit, Extension, Report};
 use crate::identify::methods::output_error::model::fitting::Fitting;
 use crate::identify::methods::output_error::moves::dampers::drop_dampers;
@@ -69,7 +69,7 @@ pub(crate) fn drop_tip_lags(fitting: &Fitting<'_>, fit: &mut ArmFit, report: &mu
     let covariance = fitting.covariances(fit).larger();
     let is_nothing = |(i, p): (usize, &Parameter)| {
         let lag = matches!(p, Parameter::TipLag(_));
-        let stands = p.of(&fit.body.arm).abs() > CLEARLY_PRESENT * deviation(&covariance, i);
+        let stands = p.of(&fit.body.arm).abs() > CLEARLY_PRESENT * standard_error(&covariance, i);
         (lag && !stands).then_some(*p)
     };
     let gone: Vec<Parameter> = fit.free.iter().enumerate().filter_map(is_nothing).collect();

@@ -1,7 +1,7 @@
 //! Number of modes: modes are added while they make the fit better, and overdamped ones are taken out.
 
 use crate::identify::methods::output_error::engine::coordinates::Body;
-use crate::identify::methods::output_error::engine::covariance::deviation;
+use crate::identify::methods::output_error::engine::covariance::standard_error;
 use crate::identify::methods::output_error::model::fit::{ArmFit, Report};
 use crate::identify::methods::output_error::model::fitting::Fitting;
 use crate::identify::methods::output_error::thresholds::{
@@ -299,6 +299,6 @@ fn known_to<'a>(
     let covariance = fitting.covariances(fit).larger();
     move |p| {
         let i = fit.free.iter().position(|q| *q == p)?;
-        Some(deviation(&covariance, i) / p.of(&fit.body.arm).abs())
+        Some(standard_error(&covariance, i) / p.of(&fit.body.arm).abs())
     }
 }

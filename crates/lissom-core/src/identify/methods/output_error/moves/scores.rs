@@ -3,7 +3,7 @@
 use nalgebra::{DMatrix, DVector};
 use rayon::prelude::*;
 
-use crate::identify::methods::output_error::engine::covariance::{Covariances, deviation};
+use crate::identify::methods::output_error::engine::covariance::{Covariances, standard_error};
 use crate::identify::methods::output_error::model::fit::{ArmFit, Extension};
 use crate::identify::methods::output_error::model::fitting::Fitting;
 use crate::identify::thresholds::{CLEARLY_PRESENT, PRESENT};
@@ -49,7 +49,7 @@ impl Promise {
     }
 
     /// Largest distance of a parameter of the group from zero, in its standard errors.
-    pub(crate) fn deviations(&self) -> f64 {
+    pub(crate) fn standard_errors(&self) -> f64 {
         let of = |e: &Extension| if e.std > 0.0 { (e.value / e.std).abs() } else { 0.0 };
         self.group.iter().map(of).fold(0.0, f64::max)
     }
@@ -64,7 +64,7 @@ impl Promise {
     /// Probability that the group is present, `1/(1 + exp((9 − d²)/2))`, where d is the distance from zero in
     /// standard errors. The ratio of the likelihoods is exp(d²/2). The prior is such that d = 3 gives one half.
     pub(crate) fn likelihood(&self) -> f64 {
-        1.0 / (1.0 + (0.5 * (PRESENT * PRESENT - self.deviations().powi(2))).exp())
+        1.0 / (1.0 + (0.5 * (PRESENT * PRESENT - self.standard_errors().powi(2))).exp())
     }
 }
 
@@ -120,8 +120,8 @@ fn score(sums: &[WindowSums], before: usize, group: &[Parameter], alone: &Promis
     let Promised { step, share, inverse: known } = Promised::of(sums, shared);
     let covariance = Covariances::at(sums, shared).larger();
     let share = share - alone.share;
-    let figure = |(k, parameter): (usize, &Parameter)| {
-        let (value, std) = (step[before + k], deviation(&covariance, before + k));
+    let estimate = |(k, parameter): (usize, &Parameter)| {
+        let (value, std) = (step[before + k], standard_error(&covariance, before + k));
         Extension { parameter: *parameter, value, std, share, added: false }
     };
     let finite = |e: &Extension| e.value.is_finite() && e.share.is_finite();
@@ -134,7 +134,7 @@ fn score(sums: &[WindowSums], before: usize, group: &[Parameter], alone: &Promis
         together: values.dot(&(&information * values)),
         slopes: beside * inverse(&of_group),
         information,
-        group: group.iter().enumerate().map(figure).filter(finite).collect(),
+        group: group.iter().enumerate().map(estimate).filter(finite).collect(),
         moved: step.rows(0, before) - &alone.step,
     }
 }
@@ -167,10 +167,10 @@ mod tests {
             score(&sums.each_ref().map(|s| s.of(&kept, 2)), 0, group, &alone)
         };
         let twins = found(&[Parameter::DampingAtPoint(0), Parameter::DampingAtPoint(1)]);
-        assert!(twins.deviations() < 1.0, "{}", twins.deviations());
+        assert!(twins.standard_errors() < 1.0, "{}", twins.standard_errors());
         assert!((twins.together - 100.0 * 2.0 / (1.0 + alike)).abs() < 0.1, "{}", twins.together);
         assert!(twins.stands_together());
         let one = found(&[Parameter::DampingAtPoint(0)]);
-        assert!((one.deviations() - shown).abs() < 0.01 && one.stands_together());
+        assert!((one.standard_errors() - shown).abs() < 0.01 && one.stands_together());
     }
 }

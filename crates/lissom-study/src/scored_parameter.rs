@@ -6,7 +6,7 @@ use serde::{Deserialize, Serialize};
 
 /// A parameter that identification estimates.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
-pub enum Figure {
+pub enum ScoredParameter {
     /// Coulomb friction.
     Coulomb,
     /// Inertia of the motor's side.
@@ -25,7 +25,7 @@ pub enum Figure {
     Damping(usize),
 }
 
-impl Figure {
+impl ScoredParameter {
     /// Its key in the list of results that a finding affects.
     pub(crate) fn key(self) -> &'static str {
         match self {
@@ -50,7 +50,7 @@ impl Figure {
     }
 }
 
-impl fmt::Display for Figure {
+impl fmt::Display for ScoredParameter {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             Self::Coulomb => f.write_str("Coulomb friction"),

@@ -16,16 +16,16 @@ impl OutputError {
     /// Friction, without the damping by the back-EMF of the command.
     pub fn friction(&self, back_emf_viscous: f64) -> Friction {
         let viscous = |direction: usize| {
-            self.figure(|arm| arm.viscous_nm_s_per_rad[direction] - back_emf_viscous)
+            self.estimate_of(|arm| arm.viscous_nm_s_per_rad[direction] - back_emf_viscous)
         };
         let mean = |arm: &ModalArm| Parameter::Viscous.of(arm) - back_emf_viscous;
         let split = self.parameters.contains(&Parameter::ViscousDifference);
         Friction {
             coulomb: self.estimate(Parameter::Coulomb),
-            forward: Some(self.figure(|arm| arm.coulomb_nm + arm.offset_nm)),
-            backward: Some(self.figure(|arm| arm.coulomb_nm - arm.offset_nm)),
+            forward: Some(self.estimate_of(|arm| arm.coulomb_nm + arm.offset_nm)),
+            backward: Some(self.estimate_of(|arm| arm.coulomb_nm - arm.offset_nm)),
             offset: self.estimate(Parameter::Offset),
-            viscous: Some(self.figure(mean)),
+            viscous: Some(self.estimate_of(mean)),
             viscous_by_direction: split.then(|| (viscous(0), viscous(1))),
             ..self.terms()
         }
@@ -34,9 +34,9 @@ impl OutputError {
     /// Terms of friction other than Coulomb friction, offset and viscous friction.
     fn terms(&self) -> Friction {
         let number = |number: FrictionNumber| self.estimate(Parameter::Friction(number));
-        let any = |of: &dyn Fn(&DryTerms) -> f64| self.figure(|arm| of(&arm.dry_terms));
+        let any = |of: &dyn Fn(&DryTerms) -> f64| self.estimate_of(|arm| of(&arm.dry_terms));
         let near = |arm: &ModalArm| arm.dry_terms.near_rest.map_or(0.0, |n| n.torque_nm);
-        let at_rest = || self.figure(|arm| arm.coulomb_nm + near(arm));
+        let at_rest = || self.estimate_of(|arm| arm.coulomb_nm + near(arm));
         Friction::of_terms(&self.arm.dry_terms, number, any, at_rest)
     }
 
@@ -60,15 +60,15 @@ impl OutputError {
         let tips = &channels.tips;
         let known = |i: usize| tips[i].calibrated && tips[i].quantity != TipQuantity::Acceleration;
         let coupling_by_tip = self.arm.coupling_by_tip().map_or(Vec::new(), |found| {
-            let figure =
-                |i: usize| self.figure(|arm| arm.coupling_by_tip().map_or(f64::NAN, |k| k[i]));
-            (0..found.len()).map(|i| known(i).then(|| figure(i))).collect()
+            let estimate =
+                |i: usize| self.estimate_of(|arm| arm.coupling_by_tip().map_or(f64::NAN, |k| k[i]));
+            (0..found.len()).map(|i| known(i).then(|| estimate(i))).collect()
         });
         let flexible = !self.arm.modes.is_empty();
         DriveEstimates {
             friction: self.friction(channels.command.back_emf_viscous),
             inertia: self.inertia(),
-            coupling: flexible.then(|| self.figure(ModalArm::coupling_nm_per_rad)),
+            coupling: flexible.then(|| self.estimate_of(ModalArm::coupling_nm_per_rad)),
             coupling_by_tip,
             gravity: self.gravity(),
         }
@@ -87,8 +87,8 @@ impl OutputError {
     /// Modes with the motor clamped.
     pub fn mode_estimates(&self) -> Vec<ModeEstimate> {
         let mode = |j: usize| ModeEstimate {
-            natural_frequency_rad_s: self.figure(|arm| arm.clamped_modes()[j].0),
-            damping_ratio: self.figure(|arm| arm.clamped_modes()[j].1),
+            natural_frequency_rad_s: self.estimate_of(|arm| arm.clamped_modes()[j].0),
+            damping_ratio: self.estimate_of(|arm| arm.clamped_modes()[j].1),
         };
         (0..self.arm.modes.len()).map(mode).collect()
     }

@@ -14,7 +14,7 @@ const MIXES: [f64; 9] = [0.0, 1e-4, 1e-3, 0.01, 0.1, 0.5, 0.9, 0.99, 1.0];
 /// What is left is rounding below this share of the responses.
 const ROUNDING: f64 = 1e-9;
 
-/// The points' responses with the deviations that are most likely, but for one factor, and their fit: from errors
+/// The points' responses with the standard errors that are most likely, but for one factor, and their fit: from errors
 /// that are a share of each response (as `data` come, and their `fit`), of one size, and as what those leave says.
 pub(super) fn of_points(
     data: &EquivalentData,
@@ -63,16 +63,16 @@ struct FittedPoles {
     fit: SharedPoles,
     outputs: Vec<Vec<Response>>,
     readings: usize,
-    /// Bayesian information criterion, the deviations' sizes counted.
+    /// Bayesian information criterion, the standard errors' sizes counted.
     criterion: f64,
 }
 
-/// 2·Σ ln σ: what the likelihood has of the deviations beside the residuals.
+/// 2·Σ ln σ: what the likelihood has of the standard errors beside the residuals.
 fn spread<'a>(responses: impl Iterator<Item = &'a Response>) -> f64 {
     2.0 * responses.map(|r| r.std.ln()).sum::<f64>()
 }
 
-/// Deviations as a share of their responses, as they come.
+/// StdSource as a share of their responses, as they come.
 fn share(output: &[Response]) -> f64 {
     median(output.iter().map(|r| r.std / r.value.norm())).unwrap_or(1.0)
 }
@@ -94,7 +94,7 @@ impl FittedPoles {
         self.fit.weighted_rms * (2.0 * share / self.readings as f64).sqrt()
     }
 
-    /// Deviations of each output from what is left of it: the most likely mix of a share and of one size.
+    /// Standard errors of each output from what is left of it: the most likely mix of a share and of one size.
     fn mixed(&self, omega_rad_s: &[f64], size: f64) -> Vec<Vec<Response>> {
         let found: Vec<(f64, Vec<f64>)> = (0..self.outputs.len())
             .map(|i| {

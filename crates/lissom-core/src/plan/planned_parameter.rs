@@ -1,23 +1,23 @@
 //! Parameters that a plan can be asked for.
 
-use crate::information::Figure;
+use crate::information::ArmParameter;
 use crate::replay::Parameter;
 
 /// A parameter whose precision can be requested.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 #[non_exhaustive]
-pub enum PlannedFigure {
+pub enum PlannedParameter {
     /// A parameter of the arm.
-    Arm(Figure),
+    Arm(ArmParameter),
     /// m·g·l, the amplitude of gravity.
     Gravity,
 }
 
-impl PlannedFigure {
+impl PlannedParameter {
     /// Name in texts.
     pub fn name(self) -> String {
         match self {
-            Self::Arm(figure) => figure.name(),
+            Self::Arm(parameter) => parameter.name(),
             Self::Gravity => "gravity".to_owned(),
         }
     }

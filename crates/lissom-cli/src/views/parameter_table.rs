@@ -11,15 +11,15 @@ use crate::tasks::known_arm::Reference;
 pub(crate) const KNOWN_DIGITS: usize = 6;
 
 /// Prints the parameters, each with its 95 % interval and the value that is known beforehand.
-pub(crate) fn figures(names: UnitNames, id: &Identified, reference: Option<&Reference>) {
+pub(crate) fn parameters(names: UnitNames, id: &Identified, reference: Option<&Reference>) {
     if let Some(method) = id.method {
         line(&format!("estimates by {}", method.words()));
     }
     let mut heading = vec!["parameter", "value", "unit", "95 % interval"];
     heading.extend(reference.map(|r| r.label));
     let mut rows = vec![heading.into_iter().map(str::to_owned).collect::<Vec<_>>()];
-    rows.extend(figure_rows(names, id, reference).into_iter().map(|row| {
-        let (value, within) = match row.figure {
+    rows.extend(parameter_rows(names, id, reference).into_iter().map(|row| {
+        let (value, within) = match row.estimate {
             Some(e) => {
                 let shown = interval(e.ci95(), e.value, e.std);
                 (with_uncertainty(e.value, e.std), shown)
@@ -50,8 +50,8 @@ pub(crate) fn line_of_least_squares(names: UnitNames, id: &Identified) {
     let Some(fit) = id.least_squares.as_ref().filter(|_| !plain) else { return };
     let (friction, [slowest, fastest]) = (&fit.estimates.friction, fit.speed_range);
     let mut rows = vec![["least squares", "value", "unit", "95 % interval"].map(str::to_owned)];
-    let mut add = |name: &str, figure: Option<Estimate>, unit: String| {
-        let Some(e) = figure else { return };
+    let mut add = |name: &str, estimate: Option<Estimate>, unit: String| {
+        let Some(e) = estimate else { return };
         let within = interval(e.ci95(), e.value, e.std);
         rows.push([name.to_owned(), with_uncertainty(e.value, e.std), unit, within]);
     };
@@ -96,7 +96,7 @@ pub(crate) fn speeds_of_law(names: UnitNames, id: &Identified) {
 pub(crate) fn constant_velocity(names: UnitNames, id: &Identified) {
     let Some(found) = &id.constant_velocity else { return };
     let mut rows = vec![["constant velocity", "value", "unit", "95 % interval"].map(str::to_owned)];
-    rows.extend(classical_rows(names, id, found).into_iter().map(|row| match row.figure {
+    rows.extend(classical_rows(names, id, found).into_iter().map(|row| match row.estimate {
         Some(e) => {
             let within = interval(e.ci95(), e.value, e.std);
             [row.name, with_uncertainty(e.value, e.std), row.unit, within]
@@ -118,14 +118,14 @@ pub(crate) fn classical_rows(
     names: UnitNames,
     id: &Identified,
     found: &ConstantVelocity,
-) -> Vec<FigureRow> {
+) -> Vec<ParameterRow> {
     let constant = id.torque_per_command.unwrap_or(1.0);
     let (forward, backward) = (found.forward.as_ref().ok(), found.backward.as_ref().ok());
     let in_command = |e: Option<Estimate>| e.map(|e| e.scaled(1.0 / constant));
     let command = || names.command_unit().to_owned();
-    let row = |name: &str, figure, unit: String| FigureRow {
+    let row = |name: &str, estimate, unit: String| ParameterRow {
         name: name.to_owned(),
-        figure,
+        estimate,
         unit,
         known: None,
     };
@@ -140,11 +140,11 @@ pub(crate) fn classical_rows(
 }
 
 /// A row of a table of parameters.
-pub(crate) struct FigureRow {
+pub(crate) struct ParameterRow {
     /// Name of the parameter; indented if it belongs to the row above.
     pub(crate) name: String,
     /// The estimate; `None` if it is refused.
-    pub(crate) figure: Option<Estimate>,
+    pub(crate) estimate: Option<Estimate>,
     /// Its unit.
     pub(crate) unit: String,
     /// The value that is known beforehand, in the same unit.
@@ -152,11 +152,11 @@ pub(crate) struct FigureRow {
 }
 
 /// All parameters of the result.
-pub(crate) fn figure_rows(
+pub(crate) fn parameter_rows(
     names: UnitNames,
     id: &Identified,
     reference: Option<&Reference>,
-) -> Vec<FigureRow> {
+) -> Vec<ParameterRow> {
     // An arm.toml is rotary and in SI, so it cannot be compared with parameters per unit of command.
     let reference = reference.filter(|_| names.torque_unit() == "N·m");
     let arm = reference.and_then(|r| r.arm.as_ref());
@@ -164,8 +164,8 @@ pub(crate) fn figure_rows(
     let constant = id.torque_per_command.unwrap_or(1.0);
     let torque = || names.torque_unit().to_owned();
     let mut rows = Vec::new();
-    let mut add = |name: &str, figure, unit: String, known: Option<f64>| {
-        rows.push(FigureRow { name: name.to_owned(), figure, unit, known });
+    let mut add = |name: &str, estimate, unit: String, known: Option<f64>| {
+        rows.push(ParameterRow { name: name.to_owned(), estimate, unit, known });
     };
     let mean = reference.map(|r| 0.5 * (r.coulomb_nm.0 + r.coulomb_nm.1));
     // With another friction near standstill, this is the part that does not depend on speed.

@@ -5,7 +5,7 @@ use crate::replay::{ModalArm, Parameter};
 
 /// A parameter of an arm for which a user can ask. Modes are counted from 0.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Figure {
+pub enum ArmParameter {
     /// Coulomb friction, mean of both directions.
     Coulomb,
     /// Viscous friction.
@@ -23,7 +23,7 @@ pub enum Figure {
     Offset,
 }
 
-impl Figure {
+impl ArmParameter {
     /// All that an arm has, the offset left out.
     pub(crate) fn of(arm: &ModalArm) -> Vec<Self> {
         let mut all = vec![Self::Coulomb, Self::Viscous, Self::Inertia];
@@ -32,7 +32,7 @@ impl Figure {
         }
         all.extend((0..arm.modes.len()).map(Self::Frequency));
         all.extend((0..arm.modes.len()).map(Self::Damping));
-        all.retain(|figure| figure.value(arm) > 0.0);
+        all.retain(|parameter| parameter.value(arm) > 0.0);
         all
     }
 

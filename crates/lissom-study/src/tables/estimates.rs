@@ -2,28 +2,28 @@
 
 use super::markdown::{percent, significant, table};
 use super::{Outcome, drawn, scores};
-use crate::figure::Figure;
-use crate::score::{FigureScore, Score};
+use crate::score::{EstimateScore, Score};
+use crate::scored_parameter::ScoredParameter;
 use crate::statistics::{Share, median, quantile};
 use crate::study::{Scored, Study};
 
 /// Rows of the tables: their names and the parameters that they contain.
-pub(super) const ROWS: [(&str, &[Figure]); 9] = [
-    ("Coulomb friction", &[Figure::Coulomb]),
-    ("Coulomb friction by direction", &[Figure::Forward, Figure::Backward]),
-    ("inertia", &[Figure::Inertia]),
-    ("coupling", &[Figure::Coupling]),
-    ("viscous friction", &[Figure::Viscous]),
-    ("frequency 1", &[Figure::Frequency(0)]),
-    ("frequency 2, 3", &[Figure::Frequency(1), Figure::Frequency(2)]),
-    ("damping ratio 1", &[Figure::Damping(0)]),
-    ("damping ratio 2, 3", &[Figure::Damping(1), Figure::Damping(2)]),
+pub(super) const ROWS: [(&str, &[ScoredParameter]); 9] = [
+    ("Coulomb friction", &[ScoredParameter::Coulomb]),
+    ("Coulomb friction by direction", &[ScoredParameter::Forward, ScoredParameter::Backward]),
+    ("inertia", &[ScoredParameter::Inertia]),
+    ("coupling", &[ScoredParameter::Coupling]),
+    ("viscous friction", &[ScoredParameter::Viscous]),
+    ("frequency 1", &[ScoredParameter::Frequency(0)]),
+    ("frequency 2, 3", &[ScoredParameter::Frequency(1), ScoredParameter::Frequency(2)]),
+    ("damping ratio 1", &[ScoredParameter::Damping(0)]),
+    ("damping ratio 2, 3", &[ScoredParameter::Damping(1), ScoredParameter::Damping(2)]),
 ];
 
 pub(super) fn section(study: &Study, outcome: &Outcome) -> String {
     let all = scores(outcome);
     let lost = drawn(outcome).len() - all.len();
-    let silent = all.iter().filter(|(_, s)| s.figures.iter().any(FigureScore::silently_wrong));
+    let silent = all.iter().filter(|(_, s)| s.estimates.iter().any(EstimateScore::silently_wrong));
     let silent = Share { hits: silent.count(), of: all.len() };
     [
         format!(
@@ -34,28 +34,30 @@ pub(super) fn section(study: &Study, outcome: &Outcome) -> String {
         ),
         errors(&all, |f| f.estimate.is_some()),
         "Estimates that no warning affects:".to_owned(),
-        errors(&all, FigureScore::vouched),
+        errors(&all, EstimateScore::vouched),
         time(outcome),
     ]
     .join("\n\n")
 }
 
 /// Errors, coverage and refusals of the estimates that are `taken`.
-pub(super) fn errors(all: &[(&Scored, &Score)], taken: impl Fn(&FigureScore) -> bool) -> String {
-    let row = |(name, figures): &(&str, &[Figure])| {
-        let of: Vec<&FigureScore> =
-            all.iter().flat_map(|(_, score)| figures.iter().filter_map(|f| score.of(*f))).collect();
-        let given: Vec<&FigureScore> = of.iter().copied().filter(|f| taken(f)).collect();
+pub(super) fn errors(all: &[(&Scored, &Score)], taken: impl Fn(&EstimateScore) -> bool) -> String {
+    let row = |(name, estimates): &(&str, &[ScoredParameter])| {
+        let of: Vec<&EstimateScore> = all
+            .iter()
+            .flat_map(|(_, score)| estimates.iter().filter_map(|f| score.of(*f)))
+            .collect();
+        let given: Vec<&EstimateScore> = of.iter().copied().filter(|f| taken(f)).collect();
         let error: Vec<f64> = given.iter().filter_map(|f| f.error()).map(f64::abs).collect();
         let refused = Share::count(&of, |f| f.estimate.is_none());
-        let bar = figures[0].bar();
+        let bar = estimates[0].bar();
         let within = bar.map_or_else(
             || "–".to_owned(),
             |bar| format!("{} within {}", Share::count(&error, |e| *e <= bar), percent(Some(bar))),
         );
         let covered: Vec<bool> = given.iter().filter_map(|f| f.covers()).collect();
-        let deviations: Vec<f64> =
-            given.iter().filter_map(|f| f.deviations()).map(f64::abs).collect();
+        let standard_errors: Vec<f64> =
+            given.iter().filter_map(|f| f.standard_errors()).map(f64::abs).collect();
         vec![
             (*name).to_owned(),
             given.len().to_string(),
@@ -65,7 +67,7 @@ pub(super) fn errors(all: &[(&Scored, &Score)], taken: impl Fn(&FigureScore) -> 
             percent(quantile(&error, 0.95)),
             within,
             Share::count(&covered, |c| *c).to_string(),
-            median(&deviations).map_or_else(|| "–".to_owned(), significant),
+            median(&standard_errors).map_or_else(|| "–".to_owned(), significant),
             of.iter().filter(|f| f.silently_wrong()).count().to_string(),
         ]
     };
