@@ -26,7 +26,7 @@ pub(crate) struct IdentifyArgs {
     /// Window length of the regression, e.g. "0.3 s" [default: from the data]
     #[arg(long, value_name = "TIME", value_parser = positive_time, allow_hyphen_values = true)]
     pub(crate) window: Option<f64>,
-    /// Search: quick (none), normal (some 10 s), thorough
+    /// Simulated fit: quick (none), normal (10 s), thorough
     #[arg(long, value_name = "EFFORT", default_value = "normal", hide_possible_values = true)]
     pub(crate) effort: EffortArg,
     /// The same as --effort quick

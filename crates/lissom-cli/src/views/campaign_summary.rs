@@ -11,9 +11,11 @@ use crate::shared::digits::trimmed;
 const TIMES: usize = 5;
 /// Significant digits of ranges.
 const RANGES: usize = 3;
+/// Significant digits of a residual in percent.
+const RESIDUAL: usize = 2;
 
-/// The spectrum of a sin⁴ window has its first zero at this number divided by the length of the window.
-const FIRST_NULL: f64 = 3.0;
+/// Half of the power passes a sin⁴ window at this number divided by the length of the window.
+const HALF_POWER: f64 = 0.93;
 
 /// Prints what was read.
 pub(crate) fn campaign(names: UnitNames, campaign: &Campaign) {
@@ -99,20 +101,19 @@ pub(crate) fn runs(id: &Identified) {
         line(&format!("{} at constant velocities", counted(steady, "run")));
     }
     if general > 0 {
-        let are = if general == 1 { "that is not a sine" } else { "that are not sines" };
-        line(&format!("{} {are}", counted(general, "run")));
+        line(&format!("{} of general motion (not one sine)", counted(general, "run")));
     }
     if let Some(r) = &id.regression {
         let how = if r.window_given { "given" } else { "chosen from the data" };
         line(&format!(
-            "regression: {} (motion in one direction without a stop), residual torque {:.2} % of the rms torque",
+            "regression: {} (motion in one direction without a stop), residual torque {} % of the rms torque",
             counted(r.phases, "slip phase"),
-            100.0 * residual(id, r)
+            trimmed(100.0 * residual(id, r), RESIDUAL)
         ));
         line(&format!(
-            "regression: windows of {} s ({how}), which pass frequencies up to {} Hz",
+            "regression: windows of {} s ({how}), bandwidth {} Hz",
             trimmed(r.window_s, RANGES),
-            trimmed(FIRST_NULL / r.window_s, RANGES)
+            trimmed(HALF_POWER / r.window_s, RANGES)
         ));
     }
 }

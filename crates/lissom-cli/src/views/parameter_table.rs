@@ -81,12 +81,15 @@ pub(crate) fn speeds_of_law(names: UnitNames, id: &Identified) {
         format!("{} to {} {unit}", significant(slowest, 3), significant(fastest, 3))
     };
     line("");
-    line(&format!("the friction law holds for speeds from {}", range(law.speed_range)));
+    line(&format!(
+        "speeds in the logs, for which the friction law was fitted: {}",
+        range(law.speed_range)
+    ));
     let speeds = || law.curve.iter().map(|p| p.speed);
     if let Some(slowest) = speeds().min_by(f64::total_cmp) {
         let fastest = speeds().fold(slowest, f64::max);
         line(&format!(
-            "the curve of friction against speed (on the report page) covers {}",
+            "the curve of friction against speed (on the report page) is measured from {}",
             range([slowest, fastest])
         ));
     }
@@ -169,8 +172,11 @@ pub(crate) fn parameter_rows(
     };
     let mean = reference.map(|r| 0.5 * (r.coulomb_nm.0 + r.coulomb_nm.1));
     // With another friction near standstill, this is the part that does not depend on speed.
-    let coulomb =
-        if f.near_rest.is_some() { "Coulomb friction, at speed" } else { "Coulomb friction" };
+    let coulomb = if f.near_rest.is_some() {
+        "Coulomb friction (of the law, at high speed)"
+    } else {
+        "Coulomb friction"
+    };
     if names.torque_known {
         let in_command = f.coulomb.map(|e| e.scaled(1.0 / constant));
         let unit = names.command_unit().to_owned();
@@ -207,9 +213,9 @@ pub(crate) fn parameter_rows(
         }
         let (change, size) =
             if near.torque.value < 0.0 { ("lower", -1.0) } else { ("higher", 1.0) };
-        let name = format!("  {change} near standstill by");
+        let name = format!("friction near standstill {change} by");
         add(&name, Some(near.torque.scaled(size)), torque(), None);
-        add("  over a speed of", Some(near.speed), format!("{}/s", names.angle()), None);
+        add("  below a speed of about", Some(near.speed), format!("{}/s", names.angle()), None);
     }
     if f.with_load.is_some() {
         add("friction per gravity torque, μ", f.with_load, "1".to_owned(), None);

@@ -363,6 +363,10 @@ impl LogError {
             Self::Empty { .. } | Self::HeaderOnly { .. } | Self::OneRow { .. } => {
                 "check that the recording ran and that this is the right file".to_owned()
             }
+            // A TOML text in double quotes would take the backslash for an escape.
+            Self::NoColumn { nearest: Some(name), .. } if name.contains('\\') => {
+                format!("write the name in single quotes: column = '{}'", excerpt(name))
+            }
             Self::NoColumn { nearest: Some(name), .. } => format!("did you mean \"{}\"?", excerpt(name)),
             Self::NoColumn { .. } => {
                 "give one of these names exactly, or the column's number from 1".to_owned()

@@ -6,7 +6,7 @@ use strum::{IntoStaticStr, VariantNames};
 
 use crate::identify::estimate::Estimate;
 use crate::identify::findings::describe::Describe;
-use crate::identify::findings::number_text::{significant, with_error};
+use crate::identify::findings::number_text::{minus, significant, with_error};
 use crate::identify::findings::result_key as key;
 use crate::identify::findings::severity::Severity;
 use crate::identify::findings::units::EstimateUnits;
@@ -197,15 +197,13 @@ impl fmt::Display for EstimateFinding {
             ),
             Self::PoorExcitation { parameter, estimate, units, .. } => {
                 let (name, unit) = (parameter.name(), parameter.unit(*units));
-                let share = estimate.std / estimate.value.abs();
-                if !share.is_finite() {
+                if !(estimate.std / estimate.value.abs()).is_finite() {
                     return write!(f, "these runs contain no information about {name}: it is not given");
                 }
                 write!(
                     f,
-                    "{name} would be {} {unit} with a standard error of {:.0} %: it is not given",
-                    significant(estimate.value, 4),
-                    100.0 * share
+                    "{name} would be {} {unit}, so uncertain that it is not given",
+                    with_error(*estimate)
                 )
             }
             Self::NegativeEstimate { parameter, estimate, units } => write!(
@@ -267,12 +265,12 @@ impl fmt::Display for EstimateFinding {
             ),
             Self::MethodsDisagree { method, difference_share } => write!(
                 f,
-                "Coulomb friction {} differs from the estimate by {:+.0} %: one of the two is wrong",
+                "Coulomb friction {} differs from the estimate by {} %: one of the two is wrong",
                 match method {
                     OtherMethod::ThirdHarmonic => "from the third-harmonic method",
                     OtherMethod::ConstantVelocity => "from constant velocities",
                 },
-                100.0 * difference_share
+                minus(&format!("{:+.0}", 100.0 * difference_share))
             ),
             Self::ArmNotGiven { residual_share } => write!(
                 f,

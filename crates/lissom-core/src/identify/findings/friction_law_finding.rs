@@ -140,9 +140,9 @@ impl fmt::Display for FrictionLawFinding {
                 if let Some(BetterLaw { residual_ratio, standard_errors }) = better {
                     write!(
                         f,
-                        "With this law the residual torque drops to {:.0} %, and slip phases left out of the fit are \
+                        "With this law the residual torque is {:.2} times as large, and slip phases left out of the fit are \
                          described better by {standard_errors:.0} standard errors or more. ",
-                        100.0 * residual_ratio
+                        residual_ratio
                     )?;
                 }
                 f.write_str(if replayed_without {

@@ -13,9 +13,14 @@ pub(super) fn significant(value: f64, digits: usize) -> String {
     let places = digits.saturating_sub(1);
     let scientific = format!("{value:.places$e}");
     match exponent(&scientific) {
-        Some(e) if PLAIN.contains(&e) => fixed(value, e, digits),
-        _ => scientific,
+        Some(e) if PLAIN.contains(&e) => minus(&fixed(value, e, digits)),
+        _ => minus(&scientific),
     }
+}
+
+/// The same with a minus sign in place of a hyphen.
+pub(super) fn minus(number: &str) -> String {
+    number.replace('-', "−")
 }
 
 /// A plain number without trailing zeros: `0.25` for `0.25000`.
@@ -37,11 +42,11 @@ pub(super) fn with_error(estimate: Estimate) -> String {
     let largest = size.max(error);
     if PLAIN.contains(&largest) && error < 3 {
         let places = usize::try_from(1 - error).unwrap_or(0);
-        return format!("{value:.places$} ± {std:.places$}");
+        return minus(&format!("{value:.places$} ± {std:.places$}"));
     }
     let places = usize::try_from(largest - error + 1).unwrap_or(0);
     let scale = 10f64.powi(-largest);
-    format!("({:.places$} ± {:.places$})e{largest}", value * scale, std * scale)
+    minus(&format!("({:.places$} ± {:.places$})e{largest}", value * scale, std * scale))
 }
 
 /// The power of ten of a number in scientific notation.

@@ -173,7 +173,7 @@ impl fmt::Display for OutputErrorFinding {
             ),
             Self::FaintMode { omega_rad_s, stiffness_std_share } => write!(
                 f,
-                "the runs hardly excite the highest mode, at {omega_rad_s:.1} rad/s: its stiffness is known to {:.1} % \
+                "the runs hardly excite the highest mode, at {omega_rad_s:.1} rad/s: its stiffness is known to {:.0} % \
                  only, and other frequencies fit nearly as well. Its frequency and the coupling may be wrong by more \
                  than their standard errors",
                 100.0 * stiffness_std_share
@@ -199,20 +199,20 @@ impl fmt::Display for OutputErrorFinding {
                 match grown_from {
                     Some((first_s, growth)) => write!(
                         f,
-                        "over windows of {window_s:.2} s the residual of the motion is {growth:.1} times that over \
-                         {first_s:.2} s: the arm lacks an effect that moves the axis"
+                        "in simulations over {window_s:.2} s the error of the motion is {growth:.1} times that over \
+                         {first_s:.2} s: the model lacks an effect that moves the axis"
                     )?,
                     None => write!(
                         f,
-                        "over windows of {window_s:.2} s the residual of the motion is {noise_ratio:.1} times the \
-                         sensors' noise, and so it is over shorter ones: the arm lacks an effect that moves the axis, or \
-                         the search did not find the arm"
+                        "in simulations over {window_s:.2} s the error of the motion is {noise_ratio:.0} times the \
+                         sensors' noise, and no smaller over shorter times: the model lacks an effect that moves the axis, or \
+                         the fit did not converge"
                     )?,
                 }
                 f.write_str(if *used {
-                    ". The estimates come from the longest windows that the arm describes"
+                    ". The estimates come from the longest time over which simulation and log agree"
                 } else {
-                    ". The estimates come from the regression"
+                    ". The estimates come from the regression, which needs no simulation"
                 })
             }
             Self::BudgetSpent { evaluations, window_s, used, interrupted } => write!(

@@ -134,7 +134,10 @@ fn looks_like(term: &MissingTerm, units: EstimateUnits) -> String {
             units.torque()
         ),
         MissingKind::Position => {
-            format!("a torque {grows} with position, by {size} {}", units.stiffness())
+            format!(
+                "a torque {grows} in proportion to the motor's angle, by {size} {}",
+                units.stiffness()
+            )
         }
         MissingKind::Stribeck => format!(
             "friction near zero speed is {size} {} {} than Coulomb and viscous friction",
@@ -204,7 +207,7 @@ fn without_mode(mode: &HiddenMode) -> String {
 fn lags(f: &mut fmt::Formatter<'_>, lag: &AngleLag) -> fmt::Result {
     write!(
         f,
-        "the {} by {} of {} ms ({:.2} samples): with this lag the residual torque drops to {:.0} %. The estimates \
+        "the {} by {} of {} ms ({:.2} samples): with this lag the residual torque is {:.2} times as large. The estimates \
          account for it",
         if lag.time_s < 0.0 {
             "command is logged late and lags behind the angle"
@@ -218,7 +221,7 @@ fn lags(f: &mut fmt::Formatter<'_>, lag: &AngleLag) -> fmt::Result {
         },
         significant(1e3 * lag.time_s.abs(), 2),
         lag.samples.abs(),
-        100.0 * lag.residual_ratio
+        lag.residual_ratio
     )
 }
 
@@ -286,11 +289,11 @@ impl fmt::Display for RegressionFinding {
             ),
             Self::MissingTerm { term, units } => write!(
                 f,
-                "it looks as if {} ({:.0} standard errors; with this term the residual torque drops to {:.1} %). The \
+                "it looks as if {} ({:.0} standard errors; with this term the residual torque is {:.2} times as large). The \
                  equation has no such term: {}",
                 looks_like(term, *units),
                 term.standard_errors,
-                100.0 * term.residual_ratio,
+                term.residual_ratio,
                 moved_by(term)
             ),
             Self::HiddenMode { mode } => write!(

@@ -6,7 +6,7 @@ use strum::{IntoStaticStr, VariantNames};
 
 use crate::identify::findings::channel_finding::Channel;
 use crate::identify::findings::describe::Describe;
-use crate::identify::findings::number_text::significant;
+use crate::identify::findings::number_text::{minus, significant};
 use crate::identify::findings::result_key as key;
 use crate::identify::findings::severity::Severity;
 use crate::identify::findings::units::EstimateUnits;
@@ -182,12 +182,12 @@ impl fmt::Display for ValidationFinding {
             ),
             Self::ModeMoved { moved } => write!(
                 f,
-                "mode {} looks as if it were at {:.4} rad/s instead of {:.4} rad/s ({:+.2} %), with {}: the squared \
+                "mode {} looks as if it were at {:.4} rad/s instead of {:.4} rad/s ({} %), with {}: the squared \
                  residual of the motion then drops to {:.1} %",
                 moved.mode + 1,
                 moved.of_log_rad_s,
                 moved.omega_rad_s,
-                100.0 * (moved.of_log_rad_s / moved.omega_rad_s - 1.0),
+                minus(&format!("{:+.2}", 100.0 * (moved.of_log_rad_s / moved.omega_rad_s - 1.0))),
                 match moved.by {
                     MovedBy::Load => "the same stiffness",
                     MovedBy::Stiffness => "another stiffness",

@@ -67,7 +67,8 @@ impl Separability {
     }
 
     fn best_known(&self) -> String {
-        let best = self.parameters.iter().min_by(|a, b| a.std.total_cmp(&b.std));
+        let own_size = self.parameters.iter().filter(|p| p.parameter != ArmParameter::Offset);
+        let best = own_size.min_by(|a, b| a.std.total_cmp(&b.std));
         best.filter(|_| self.parameters.len() > 1).map_or_else(String::new, |best| {
             format!(
                 " Most certain: {}, standard error {}.",
@@ -101,7 +102,7 @@ fn least_certain(worst: &Direction) -> Option<String> {
         format!("Least certain: {}, standard error {}.", first.parameter.name(), percent(std))
     } else {
         format!(
-            "These logs hardly separate some parameters: {} (one standard error) would hardly change the motion.",
+            "Some parameters are correlated: {} (one standard error) would change the motion by hardly more than the noise.",
             moved(&worst.parts, worst.std)
         )
     })
