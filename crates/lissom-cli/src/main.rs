@@ -16,14 +16,16 @@ use clap::Parser as _;
 
 use crate::args::command_line::{Cli, Command};
 use crate::commands::{
-    compare_command, completions_command, demo, equivalent, identify_command, man_command,
-    model_command, payload_command, plan, report_figures, rig, thresholds_command,
-    validate_command,
+    compare_command, completions_command, demo, equivalent, identify_command, init_command,
+    inspect_command, man_command, model_command, payload_command, plan, report_figures, rig,
+    thresholds_command, validate_command,
 };
 use crate::views::printer;
 
 fn main() -> ExitCode {
     let outcome = match Cli::parse().command {
+        Command::Inspect(args) => inspect_command::run(&args),
+        Command::Init(args) => init_command::run(&args),
         Command::Identify(args) => identify_command::run(&args),
         Command::Validate(args) => validate_command::run(&args),
         Command::Compare(args) => compare_command::run(&args),

@@ -6,7 +6,9 @@ use std::process::Command;
 /// Lines of a screen that help may take.
 const SCREEN: usize = 60;
 
-const SUBCOMMANDS: [&str; 13] = [
+const SUBCOMMANDS: [&str; 15] = [
+    "inspect",
+    "init",
     "identify",
     "validate",
     "compare",

@@ -6,6 +6,7 @@ use thiserror::Error;
 use crate::arm_file::arm_error::ArmError;
 use crate::campaign::campaign_error::CampaignError;
 use crate::config::ConfigError;
+use crate::inspect::DraftError;
 use crate::log::LogError;
 use crate::model::frequency_file::FrequencyError;
 use crate::plan::plan_error::PlanError;
@@ -48,6 +49,9 @@ pub enum Error {
     /// A result cannot be used.
     #[error(transparent)]
     Result(#[from] ResultError),
+    /// No campaign can be made of a log and of what the user says about it.
+    #[error(transparent)]
+    Draft(#[from] DraftError),
     /// A file cannot be written.
     #[error(transparent)]
     Write(#[from] WriteError),
@@ -66,6 +70,7 @@ impl Error {
             Self::Campaign(error) => error.hint(),
             Self::Responses(error) => error.hint(),
             Self::Result(error) => error.hint(),
+            Self::Draft(error) => error.hint(),
             Self::Write(error) => error.hint(),
             // Readers do not create such runs: see [`LogError`] and [`CampaignError`].
             Self::Record(_) => None,

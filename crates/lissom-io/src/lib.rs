@@ -10,6 +10,7 @@
 //!   [`ThresholdsFile`] the list of thresholds: see [`result`].
 //! - [`PlannedFile`] is a plan as JSON, [`RigFile`] describes a virtual campaign, [`DemoFile`] and
 //!   [`FiguresFile`] are estimates compared with known values.
+//! - [`inspect`](mod@inspect) describes a log of which nothing is known yet, and makes a `campaign.toml` of it.
 //! - [`units`] reads quantities such as `"2.184 lbf*in/A"`.
 //! - [`mod@write`] writes files whole or not at all.
 //!
@@ -20,6 +21,7 @@ pub mod campaign;
 pub mod comparison;
 mod config;
 mod excerpt;
+pub mod inspect;
 mod io_error;
 pub mod log;
 pub mod model;
@@ -44,7 +46,7 @@ pub use arm_file::{
 };
 pub use campaign::{
     AnalysisOptions, CampaignError, CampaignFile, DriveConstants, ReadOptions, read_campaign,
-    read_campaign_like, read_campaign_with,
+    read_campaign_like, read_campaign_text, read_campaign_with,
 };
 pub use comparison::{DemoFile, FiguresFile};
 pub use config::{ConfigError, ConfigPlace, Rule};

@@ -5,6 +5,7 @@ use schemars::transform::{Transform, transform_subschemas};
 use schemars::{JsonSchema, Schema};
 use serde_json::Value;
 
+use crate::inspect::InspectionFile;
 use crate::model::ModelFile;
 use crate::planned::PlannedFile;
 use crate::result::{
@@ -16,6 +17,7 @@ use crate::rig::RigFile;
 pub fn schema_files() -> Vec<(&'static str, String)> {
     vec![
         ("result.schema.json", text::<ResultFile>("result.json of lissom identify")),
+        ("inspect.schema.json", text::<InspectionFile>("Output of lissom inspect --json")),
         ("model.schema.json", text::<ModelFile>("model.json of lissom model")),
         ("equivalent.schema.json", text::<EquivalentFile>("Output of lissom equivalent --json")),
         ("compare.schema.json", text::<ComparedFile>("Output of lissom compare --json")),

@@ -182,7 +182,7 @@ fn a_result_and_its_schema_name_the_same_keys() {
     // What may be null is not: its keys were looked at too.
     check.holds(&[
         "verdict.directions[].parts[].share_of_variance",
-        "verdict.runs[].estimates[].std_growth_without",
+        "verdict.runs[].parameters[].std_growth_without",
         "verdict.run_to_add.record_s",
         "arm.modes[].damping_within_per_s",
         "arm.tips[].shape",

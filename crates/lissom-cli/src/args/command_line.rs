@@ -8,6 +8,8 @@ use super::demo_args::DemoArgs;
 use super::equivalent_args::EquivalentArgs;
 use super::figures_args::FiguresArgs;
 use super::identify_args::IdentifyArgs;
+use super::init_args::InitArgs;
+use super::inspect_args::InspectArgs;
 use super::man_args::ManArgs;
 use super::model_args::ModelArgs;
 use super::payload_args::PayloadArgs;
@@ -38,6 +40,10 @@ Exit codes:
 
 #[derive(Debug, Subcommand)]
 pub(crate) enum Command {
+    /// Show what is in a log: channels, units, clock, and which channel is probably what
+    Inspect(InspectArgs),
+    /// Write a campaign.toml for logs, with comments
+    Init(InitArgs),
     /// Identify friction, inertia, coupling, modes and frequency responses from logs
     Identify(IdentifyArgs),
     /// Check a result: predict a log that was not used for it

@@ -5,15 +5,18 @@ use std::path::PathBuf;
 use clap::{Args, ValueEnum};
 use lissom::identify::Effort;
 
+use super::log_args::LogArgs;
 use super::positive_time::positive_time;
 use super::stdout_name::STDOUT;
 
-/// Reads the logs that a campaign.toml describes: their columns and units, and what is known about the drive.
+/// Reads the logs that a campaign.toml describes, or logs by themselves. What no option says about a log is taken from
+/// it where it is unambiguous; a unit must be stated by the log or by an option.
 #[derive(Debug, Args)]
 #[command(after_help = HELP)]
 pub(crate) struct IdentifyArgs {
-    /// The campaign.toml, which describes the logs
-    pub(crate) campaign: PathBuf,
+    /// A campaign.toml, which describes the logs; or logs
+    #[arg(required = true, value_name = "CAMPAIGN|LOG")]
+    pub(crate) input: Vec<PathBuf>,
     /// Write the result as JSON to FILE (without FILE: print only JSON)
     #[arg(long, value_name = "FILE", num_args = 0..=1, default_missing_value = STDOUT)]
     pub(crate) json: Option<PathBuf>,
@@ -35,6 +38,8 @@ pub(crate) struct IdentifyArgs {
     /// Stop after TIME, e.g. "5 s", with the best result so far
     #[arg(long, value_name = "TIME", value_parser = positive_time, allow_hyphen_values = true)]
     pub(crate) time_limit: Option<f64>,
+    #[command(flatten)]
+    pub(crate) said: LogArgs,
 }
 
 /// How far the output-error method refines the estimates.
@@ -60,8 +65,8 @@ impl IdentifyArgs {
 const HELP: &str = "\
 Examples:
   lissom identify campaign.toml --report report.html
-  lissom identify campaign.toml --quick --json result.json
-A campaign.toml names the columns of your logs, their units and the log files. `lissom demo` writes
-one to start from; the page campaign.toml in the book explains every key. A current that a sensor
-measured needs hold = \"measured\"; a current that the controller asked for, hold = \"sampled\".
+  lissom identify log.csv --current i:A --motor q:deg --torque-constant \"0.1 N*m/A\"
+  lissom identify log.csv --motor counts:rad,scale=0.001534 --tip alpha:deg
+A campaign.toml names the columns of your logs, their units and the log files; `lissom init` writes
+one. COLUMN is a name or a number from 1; after it come keys of campaign.toml, as in scale=0.01.
 Ctrl-C ends the search with the best result so far.";

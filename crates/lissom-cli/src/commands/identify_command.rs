@@ -13,18 +13,24 @@ use crate::args::stdout_name::STDOUT;
 use crate::shared::exit_codes::{INTERRUPTED, REFUSED};
 use crate::shared::failure::Failure;
 use crate::shared::output_guard;
+use crate::tasks::described_logs::{DescribedLogs, is_toml};
 use crate::tasks::identification::{Asked, first_answer, identified};
 use crate::tasks::known_arm::{Reference, checked};
 use crate::views::{
-    arm_check, campaign_summary, equivalent_table, finding_list, parameter_table, printer,
-    report_page, result_plots, separability_section,
+    arm_check, campaign_summary, draft_lines, equivalent_table, finding_list, parameter_table,
+    printer, report_page, result_plots, separability_section,
 };
 
 pub(crate) fn run(args: &IdentifyArgs) -> Result<ExitCode, Failure> {
     let json = args.json.as_deref();
     let json_file = json.filter(|path| *path != Path::new(STDOUT));
     output_guard::guard(json_file, args.report.as_deref())?;
-    let file = read_campaign(&args.campaign)?;
+    let described = described(args)?;
+    let file = match &described {
+        Some(logs) => logs.read()?,
+        None => read_campaign(&args.input[0])?,
+    };
+    let name = args.input[0].as_path();
     let names = UnitNames::new(&file.campaign.channels);
     let reference = Reference::of(&file)?;
     let reference = reference.as_ref();
@@ -32,17 +38,17 @@ pub(crate) fn run(args: &IdentifyArgs) -> Result<ExitCode, Failure> {
         Asked { window_s: args.window, effort: args.effort(), time_limit_s: args.time_limit };
     let to_terminal = json.is_none_or(|path| path != Path::new(STDOUT)) && stdout().is_terminal();
     if to_terminal && asked.effort != Effort::Quick {
-        let first = first_answer(&args.campaign, &file, asked)?;
+        let first = first_answer(name, &file, asked)?;
         printer::line("first result, before the search (running now):");
         parameter_table::parameters(names, &first, reference);
         printer::line("");
     }
-    let id = identified(&args.campaign, &file, asked)?;
+    let id = identified(name, &file, asked)?;
     let geometry = checked(&id, reference);
     let result = ResultFile::of(&file.campaign.channels, &id, geometry.as_ref());
     let mut batch = Batch::new();
     if let Some(path) = &args.report {
-        let title = args.campaign.display().to_string();
+        let title = name.display().to_string();
         let text =
             report_page::page(&title, &file.campaign, names, &id, reference, geometry.as_ref());
         batch.file(path, text.as_bytes())?;
@@ -57,6 +63,10 @@ pub(crate) fn run(args: &IdentifyArgs) -> Result<ExitCode, Failure> {
     if json.is_some() && json_file.is_none() {
         printer::json(&result)?;
     } else {
+        if let Some(logs) = &described {
+            logs.notes().for_each(printer::line);
+            draft_lines::taken(&logs.draft);
+        }
         campaign_summary::campaign(names, &file.campaign);
         campaign_summary::ranges(names, &file.campaign);
         campaign_summary::runs(&id);
@@ -73,6 +83,22 @@ pub(crate) fn run(args: &IdentifyArgs) -> Result<ExitCode, Failure> {
         finding_list::findings(&id.findings);
     }
     Ok(code(&id))
+}
+
+/// The logs, if no campaign.toml is given.
+fn described(args: &IdentifyArgs) -> Result<Option<DescribedLogs>, Failure> {
+    let campaigns = args.input.iter().filter(|path| is_toml(path)).count();
+    if campaigns == 0 {
+        return DescribedLogs::new(&args.input, &args.said.description()).map(Some);
+    }
+    if args.input.len() > 1 || !args.said.is_empty() {
+        return Err(Failure::Asked(
+            "a campaign.toml describes its logs itself: no other file and no option about columns or drive may be given"
+                .to_owned(),
+            "give one campaign.toml, or logs",
+        ));
+    }
+    Ok(None)
 }
 
 fn code(id: &Identified) -> ExitCode {

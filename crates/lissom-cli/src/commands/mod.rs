@@ -5,6 +5,8 @@ pub(crate) mod completions_command;
 pub(crate) mod demo;
 pub(crate) mod equivalent;
 pub(crate) mod identify_command;
+pub(crate) mod init_command;
+pub(crate) mod inspect_command;
 pub(crate) mod man_command;
 pub(crate) mod model_command;
 pub(crate) mod payload_command;

@@ -14,6 +14,7 @@ use crate::args::validate_args::ValidateArgs;
 use crate::shared::exit_codes::REFUSED;
 use crate::shared::failure::Failure;
 use crate::shared::output_guard;
+use crate::tasks::described_logs::is_toml;
 use crate::views::{campaign_summary, finding_list, printer, validation_plots, validation_table};
 
 pub(crate) fn run(args: &ValidateArgs) -> Result<ExitCode, Failure> {
@@ -59,8 +60,4 @@ fn log(args: &ValidateArgs) -> Result<CampaignFile, Failure> {
         None if is_toml(&args.log) => Ok(read_campaign(&args.log)?),
         None => Err(Failure::UndescribedLog { log: args.log.clone() }),
     }
-}
-
-fn is_toml(path: &Path) -> bool {
-    path.extension().is_some_and(|e| e.eq_ignore_ascii_case("toml"))
 }

@@ -36,6 +36,8 @@ pub(crate) enum Failure {
     Asked(String, &'static str),
     #[error("{}: exists and is not an earlier output; it is not overwritten", file.display())]
     NotAnOutput { file: PathBuf },
+    #[error("{}: exists, and is not overwritten", file.display())]
+    Exists { file: PathBuf },
     #[error("{}: is given for two outputs", file.display())]
     SameOutput { file: PathBuf },
     #[error("{}: is an input; it is not overwritten", file.display())]
@@ -117,6 +119,7 @@ impl Failure {
             Self::OtherCampaign { .. } => {
                 Some("give another --out, or delete the folder if you do not need it".to_owned())
             }
+            Self::Exists { .. } => Some("give another name with --out".to_owned()),
             Self::SameOutput { .. } | Self::IsInput { .. } => {
                 Some("give each output a file of its own".to_owned())
             }

@@ -2,6 +2,7 @@
 
 pub(crate) mod any_beam;
 pub(crate) mod demo_comparison;
+pub(crate) mod described_logs;
 pub(crate) mod equivalent_input;
 pub(crate) mod identification;
 pub(crate) mod known_arm;

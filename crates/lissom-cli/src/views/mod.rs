@@ -3,13 +3,16 @@
 pub(crate) mod arm_check;
 pub(crate) mod bode_plots;
 pub(crate) mod campaign_summary;
+pub(crate) mod channel_plots;
 pub(crate) mod compare_table;
 pub(crate) mod demo_table;
+pub(crate) mod draft_lines;
 pub(crate) mod equivalent_plots;
 pub(crate) mod equivalent_table;
 pub(crate) mod finding_list;
 pub(crate) mod friction_curve;
 pub(crate) mod friction_truth;
+pub(crate) mod inspection_table;
 pub(crate) mod load_table;
 pub(crate) mod model_algebra;
 pub(crate) mod model_plots;

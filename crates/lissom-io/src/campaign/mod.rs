@@ -64,4 +64,6 @@ mod whole_turns;
 pub use campaign_error::CampaignError;
 pub use campaign_file::{AnalysisOptions, CampaignFile, DriveConstants, ReadOptions};
 pub(crate) use campaign_signals::column;
-pub use read_campaign::{read_campaign, read_campaign_like, read_campaign_with};
+pub use read_campaign::{
+    read_campaign, read_campaign_like, read_campaign_text, read_campaign_with,
+};

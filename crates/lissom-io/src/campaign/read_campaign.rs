@@ -26,7 +26,16 @@ pub fn read_campaign(path: &Path) -> Result<CampaignFile, Error> {
 /// # Errors
 /// As [`read_campaign`].
 pub fn read_campaign_with(path: &Path, options: &ReadOptions) -> Result<CampaignFile, Error> {
-    read(path, None, options)
+    read(&Source::read(path)?, None, options)
+}
+
+/// Reads a campaign whose `campaign.toml` is a text. Files in it are relative to the working directory; errors call the
+/// text `name`.
+///
+/// # Errors
+/// As [`read_campaign`].
+pub fn read_campaign_text(name: &str, text: String) -> Result<CampaignFile, Error> {
+    read(&Source::new(Path::new(name), text), None, &ReadOptions::default())
 }
 
 /// Reads only `log`, with the columns and units of the campaign at `path`. The `skip` in its `[analysis]` applies too.
@@ -34,11 +43,10 @@ pub fn read_campaign_with(path: &Path, options: &ReadOptions) -> Result<Campaign
 /// # Errors
 /// As [`read_campaign`].
 pub fn read_campaign_like(path: &Path, log: &Path) -> Result<CampaignFile, Error> {
-    read(path, Some(log), &ReadOptions::default())
+    read(&Source::read(path)?, Some(log), &ReadOptions::default())
 }
 
-fn read(path: &Path, log: Option<&Path>, options: &ReadOptions) -> Result<CampaignFile, Error> {
-    let source = Source::read(path)?;
+fn read(source: &Source, log: Option<&Path>, options: &ReadOptions) -> Result<CampaignFile, Error> {
     let document = source.parse()?;
     let root = source.root(&document);
     root.only(&["signals", "drive", "load", "analysis", "runs"])?;

@@ -309,6 +309,15 @@ pub enum LogError {
 }
 
 impl LogError {
+    /// The error of a file that `lissom_formats` cannot read.
+    pub(crate) fn of_format(file: String, source: FormatError) -> Self {
+        match source {
+            FormatError::Read { source } => Self::Open { file, source },
+            FormatError::Foreign { what, way_out } => Self::Foreign { file, what, way_out },
+            source => Self::Format { file, source },
+        }
+    }
+
     /// The error for time that goes back without a restart of the clock.
     pub(crate) fn time_back(file: &str, column: &str, found: &TimeBack) -> Self {
         let (file, column) = (file.to_owned(), column.to_owned());

@@ -23,14 +23,12 @@ pub(super) fn read(
     let file = path.display().to_string();
     let data = match lissom_formats::read(path) {
         Ok(data) => data,
-        Err(FormatError::Foreign { what, way_out }) => {
-            return Err(LogError::Foreign { file, what, way_out });
-        }
         Err(
-            source @ (FormatError::Damaged { .. }
+            source @ (FormatError::Foreign { .. }
+            | FormatError::Damaged { .. }
             | FormatError::TooLarge { .. }
             | FormatError::Json { .. }),
-        ) => return Err(LogError::Format { file, source }),
+        ) => return Err(LogError::of_format(file, source)),
         Err(_) => return Err(first),
     };
     of_data(&file, &data, time, columns, options, first)

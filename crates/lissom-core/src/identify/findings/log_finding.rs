@@ -35,6 +35,11 @@ pub enum LogFinding {
         /// Median of all runs \[s\].
         median_s: f64,
     },
+    /// The samples are as far apart, or as close together, as no log of a drive has them.
+    TimeUnit {
+        /// Median sample time of the runs \[s\].
+        sample_time_s: f64,
+    },
     /// The log was cut at gaps in its time stamps.
     Gap {
         /// Number of gaps.
@@ -173,6 +178,11 @@ impl fmt::Display for LogFinding {
                 "the sample time of this run is {} s, that of the runs in general {} s: its time stamps may be in another unit",
                 significant(*sample_time_s, 3),
                 significant(*median_s, 3)
+            ),
+            Self::TimeUnit { sample_time_s } => write!(
+                f,
+                "the samples are {} s apart, which no log of a drive is: the time stamps are probably in another unit",
+                significant(*sample_time_s, 3)
             ),
             Self::Jitter { rms_share, max_share } => write!(
                 f,
@@ -331,6 +341,7 @@ impl Describe for LogFinding {
         match self {
             Self::RepeatedRun { .. }
             | Self::SampleTimeUnlike { .. }
+            | Self::TimeUnit { .. }
             | Self::Jitter { .. }
             | Self::CommandFollowsMotor { .. } => Severity::Warning,
             Self::Resampled { error_share, .. } if *error_share > RESAMPLING_ERROR => {
@@ -354,7 +365,7 @@ impl Describe for LogFinding {
     fn affects(&self) -> Vec<&'static str> {
         match self {
             Self::RepeatedRun { .. } => vec![key::RAW_RESPONSE],
-            Self::SampleTimeUnlike { .. } => {
+            Self::SampleTimeUnlike { .. } | Self::TimeUnit { .. } => {
                 let joint = [key::COULOMB, key::VISCOUS, key::INERTIA, key::GRAVITY];
                 [&joint[..], &[key::COUPLING, key::MODES]].concat()
             }
@@ -385,6 +396,9 @@ impl Describe for LogFinding {
             }
             Self::SampleTimeUnlike { .. } => {
                 "check the unit of time in this log; give a log with another unit in a campaign of its own"
+            }
+            Self::TimeUnit { .. } => {
+                "check the unit of time; stamps that grow by 1 or 2 are often milliseconds, by 1000 or more microseconds"
             }
             Self::Jitter { .. } => "use the clock of the controller for the time stamps",
             Self::Gap { .. } | Self::PieceDropped { .. } => "log without interruption",

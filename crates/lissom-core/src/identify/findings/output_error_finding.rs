@@ -173,10 +173,10 @@ impl fmt::Display for OutputErrorFinding {
             ),
             Self::FaintMode { omega_rad_s, stiffness_std_share } => write!(
                 f,
-                "the runs hardly excite the highest mode, at {omega_rad_s:.1} rad/s: its stiffness is known to {:.0} % \
+                "the runs hardly excite the highest mode, at {omega_rad_s:.1} rad/s: its stiffness is known to {} % \
                  only, and other frequencies fit nearly as well. Its frequency and the coupling may be wrong by more \
                  than their standard errors",
-                100.0 * stiffness_std_share
+                significant(100.0 * stiffness_std_share, 2)
             ),
             Self::MoreThanNoise { channel, share } => write!(
                 f,

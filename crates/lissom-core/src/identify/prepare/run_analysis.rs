@@ -18,8 +18,9 @@ use crate::identify::prepare::sensor_check::tip_unit;
 use crate::identify::prepare::steady_points::{SteadyPoint, steady_points, steady_share};
 use crate::identify::prepare::thresholds::{
     AT_LIMIT, AT_REST_REPORTED, DRIFT_REPORTED, DRIFT_STEPS, FEW_PERIODS, JITTER_REPORTED, ONE_WAY,
-    ONE_WAY_MOVES, SAMPLE_TIMES_UNLIKE, SATURATION_REPORTED, SINE_DISTORTION_FOUND,
-    SINE_DISTORTION_GIVEN, SINE_UNEXPLAINED, STICKING_REPORTED,
+    ONE_WAY_MOVES, SAMPLE_TIME_LEAST_S, SAMPLE_TIME_MOST_S, SAMPLE_TIMES_UNLIKE,
+    SATURATION_REPORTED, SINE_DISTORTION_FOUND, SINE_DISTORTION_GIVEN, SINE_UNEXPLAINED,
+    STICKING_REPORTED,
 };
 use crate::identify::thresholds::SAME_FREQUENCY;
 use crate::record::{Campaign, Hold, Run};
@@ -221,11 +222,17 @@ fn saturation(campaign: &Campaign, run: &Run, findings: &mut Vec<Finding>) -> f6
     share
 }
 
-/// A sample time that is a large multiple of that of the runs in general, or a small part.
+/// A sample time that is a large multiple of that of the runs in general, or a small part; one that no drive has is
+/// reported with the first run.
 fn unlike_sample_time(campaign: &Campaign, run: &Run) -> Option<Finding> {
     let mut times: Vec<f64> = campaign.runs.iter().map(Run::sample_time_s).collect();
     times.sort_by(f64::total_cmp);
     let (sample_time_s, median_s) = (run.sample_time_s(), times[(times.len() - 1) / 2]);
+    let possible = SAMPLE_TIME_LEAST_S..SAMPLE_TIME_MOST_S;
+    let first = campaign.runs.first().is_some_and(|first| first.name() == run.name());
+    if first && !possible.contains(&median_s) {
+        return Some(Finding::new(LogFinding::TimeUnit { sample_time_s: median_s }));
+    }
     let ratio = sample_time_s / median_s;
     let found = LogFinding::SampleTimeUnlike { sample_time_s, median_s };
     (ratio.max(ratio.recip()) > SAMPLE_TIMES_UNLIKE).then(|| Finding::of_run(run.name(), found))

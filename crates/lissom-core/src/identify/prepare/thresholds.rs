@@ -5,6 +5,11 @@ thresholds! {
         /// A run is reported if its sample time differs from that of the runs in general by more
         /// than this factor: milliseconds or minutes taken for seconds differ by 1000 or 60.
         SAMPLE_TIMES_UNLIKE: f64 = 50.0, "1", Convention;
+        /// Samples of a drive are not farther apart than this: at 0.3 s a motion of a second has three samples, and
+        /// milliseconds taken for seconds are 1 s or more.
+        SAMPLE_TIME_MOST_S: f64 = 0.3, "s", Convention;
+        /// Samples of a drive are not closer together than this: seconds taken for milliseconds are 1 to 2 µs.
+        SAMPLE_TIME_LEAST_S: f64 = 4e-6, "s", Convention;
         /// A channel moves if it changes by more than this many steps of its sensor. A smooth
         /// signal that turns back at its extreme value changes by about four steps within the
         /// length of its plateau, and is not clipped.

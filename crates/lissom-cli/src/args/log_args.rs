@@ -1,0 +1,114 @@
+//! Arguments that describe logs in place of a campaign.toml.
+
+use clap::Args;
+use lissom_io::inspect::{Choice, CommandKey, Description};
+
+use super::positive_time::positive_time;
+
+/// What is said about logs that no campaign.toml describes.
+#[derive(Debug, Args)]
+#[command(next_help_heading = "Logs without a campaign.toml (COLUMN:UNIT, as in q:deg)")]
+pub(crate) struct LogArgs {
+    /// Time stamps [default: found]
+    #[arg(long, value_name = "COLUMN:UNIT", value_parser = choice, conflicts_with = "sample_time")]
+    time: Option<Choice>,
+    /// Sample time of logs without time stamps, e.g. "1 ms"
+    #[arg(long, value_name = "TIME", value_parser = time_text)]
+    sample_time: Option<String>,
+    /// Motor current [default: found]
+    #[arg(long, value_name = "COLUMN:UNIT", value_parser = choice, group = "drive_input")]
+    current: Option<Choice>,
+    /// Motor voltage
+    #[arg(long, value_name = "COLUMN:UNIT", value_parser = choice, group = "drive_input")]
+    voltage: Option<Choice>,
+    /// Torque (tau:N*m), or a command of unknown unit (v:1)
+    #[arg(long, value_name = "COLUMN:UNIT", value_parser = choice, group = "drive_input")]
+    command: Option<Choice>,
+    /// Position reference of a servo
+    #[arg(long, value_name = "COLUMN:UNIT", value_parser = choice, group = "drive_input")]
+    goal: Option<Choice>,
+    /// Input commanded (sampled), or a sensor's value (measured)
+    #[arg(long, value_name = "HOLD", value_parser = ["sampled", "measured"], hide_possible_values = true)]
+    hold: Option<String>,
+    /// Angle, position or speed of the motor [default: found]
+    #[arg(long, value_name = "COLUMN:UNIT", value_parser = choice)]
+    motor: Option<Choice>,
+    /// Speed of the motor, to be compared with its angle
+    #[arg(long, value_name = "COLUMN:UNIT", value_parser = choice)]
+    speed: Option<Choice>,
+    /// A point of the arm; several times for several
+    #[arg(long, value_name = "COLUMN:UNIT", value_parser = choice)]
+    tip: Vec<Choice>,
+    /// Torque constant, e.g. "0.1 N*m/A"
+    #[arg(long, value_name = "QUANTITY")]
+    torque_constant: Option<String>,
+    /// Resistance of the winding, e.g. "1.2 ohm"
+    #[arg(long, value_name = "QUANTITY")]
+    resistance: Option<String>,
+    /// Back-EMF constant, e.g. "0.1 V*s/rad"
+    #[arg(long, value_name = "QUANTITY")]
+    back_emf: Option<String>,
+    /// Turns of the motor for one turn of the joint
+    #[arg(long, value_name = "NUMBER")]
+    gear_ratio: Option<f64>,
+    /// Gravity of an unbalanced load acts: identify its torque
+    #[arg(long)]
+    gravity: bool,
+    /// Known torque m·g·l of this load, e.g. "2.1 N*m"
+    #[arg(long, value_name = "QUANTITY")]
+    mgl: Option<String>,
+    /// Beginning of every log to leave out, e.g. "1 s"
+    #[arg(long, value_name = "TIME", value_parser = time_text)]
+    skip: Option<String>,
+}
+
+fn choice(text: &str) -> Result<Choice, String> {
+    Choice::parse(text).map_err(|error| match error.hint() {
+        Some(hint) => format!("{error}\nhint: {hint}"),
+        None => error.to_string(),
+    })
+}
+
+fn time_text(text: &str) -> Result<String, String> {
+    positive_time(text).map(|_| text.to_owned())
+}
+
+impl LogArgs {
+    /// Whether nothing is said.
+    pub(crate) fn is_empty(&self) -> bool {
+        self.description() == Description::default()
+    }
+
+    /// What is said.
+    pub(crate) fn description(&self) -> Description {
+        let goal = self.goal.clone().map(|mut goal| {
+            goal.keys.push(("quantity".to_owned(), "\"goal\"".to_owned()));
+            goal
+        });
+        let inputs = [
+            (CommandKey::Current, self.current.clone()),
+            (CommandKey::Voltage, self.voltage.clone()),
+            (CommandKey::Command, self.command.clone()),
+            (CommandKey::Command, goal),
+        ];
+        let drive = [
+            ("torque_constant", self.torque_constant.clone()),
+            ("resistance", self.resistance.clone()),
+            ("back_emf", self.back_emf.clone()),
+            ("gear_ratio", self.gear_ratio.map(|ratio| ratio.to_string())),
+        ];
+        Description {
+            time: self.time.clone(),
+            sample_time: self.sample_time.clone(),
+            command: inputs.into_iter().find_map(|(key, said)| Some((key, said?))),
+            motor: self.motor.clone(),
+            speed: self.speed.clone(),
+            tips: self.tip.clone(),
+            hold: self.hold.clone(),
+            drive: drive.into_iter().filter_map(|(k, v)| Some((k.to_owned(), v?))).collect(),
+            gravity: self.gravity,
+            mgl: self.mgl.clone(),
+            skip: self.skip.clone(),
+        }
+    }
+}

@@ -1,0 +1,36 @@
+//! `lissom init LOG...`.
+
+use std::process::ExitCode;
+
+use lissom_io::write;
+
+use crate::args::init_args::InitArgs;
+use crate::shared::failure::Failure;
+use crate::tasks::described_logs::DescribedLogs;
+use crate::views::{draft_lines, printer};
+
+pub(crate) fn run(args: &InitArgs) -> Result<ExitCode, Failure> {
+    if args.out.exists() {
+        return Err(Failure::Exists { file: args.out.clone() });
+    }
+    let found = DescribedLogs::new(&args.logs, &args.said.description())?;
+    let text = format!(
+        "# Written by `lissom init`. Check every line: units, and whether the input is commanded or measured.\n\
+         # All keys: the page campaign.toml of the book.\n\n{}",
+        found.draft.commented()
+    );
+    write::write_text(&args.out, &text)?;
+    draft_lines::taken(&found.draft);
+    let missing: Vec<String> = found.draft.missing().map(ToString::to_string).collect();
+    for text in &missing {
+        printer::line(&format!("to do: {text}"));
+    }
+    let out = args.out.display();
+    printer::line(&format!("written: {out}"));
+    printer::line(&if missing.is_empty() {
+        format!("next: lissom identify {out} --report report.html")
+    } else {
+        format!("next: complete the lines marked TO DO in {out}, then lissom identify {out}")
+    });
+    Ok(ExitCode::SUCCESS)
+}

@@ -1,0 +1,44 @@
+//! `lissom inspect LOG...`.
+
+use std::path::Path;
+use std::process::ExitCode;
+
+use lissom_io::inspect::{InspectionFile, inspect};
+use lissom_io::write::{self, Batch};
+
+use crate::args::inspect_args::InspectArgs;
+use crate::args::stdout_name::STDOUT;
+use crate::shared::failure::Failure;
+use crate::shared::output_guard;
+use crate::views::{channel_plots, inspection_table, printer};
+
+pub(crate) fn run(args: &InspectArgs) -> Result<ExitCode, Failure> {
+    let json = args.json.as_deref();
+    let json_file = json.filter(|path| *path != Path::new(STDOUT));
+    output_guard::guard(json_file, None)?;
+    let inputs: Vec<&Path> = args.logs.iter().map(AsRef::as_ref).collect();
+    output_guard::guard_inputs(json_file, &inputs)?;
+    let found = args.logs.iter().map(|log| inspect(log)).collect::<Result<Vec<_>, _>>()?;
+    let content = InspectionFile::of(&found);
+    let mut batch = Batch::new();
+    if let Some(path) = json_file {
+        batch.file(path, write::json_text(path, &content)?.as_bytes())?;
+    }
+    if let Some(folder) = &args.plots {
+        for log in &found {
+            channel_plots::add(&mut batch, folder, log, found.len() > 1)?;
+        }
+    }
+    batch.commit()?;
+    if json.is_some() && json_file.is_none() {
+        printer::json(&content)?;
+        return Ok(ExitCode::SUCCESS);
+    }
+    for (k, log) in found.iter().enumerate() {
+        if k > 0 {
+            printer::line("");
+        }
+        inspection_table::print(log);
+    }
+    Ok(ExitCode::SUCCESS)
+}

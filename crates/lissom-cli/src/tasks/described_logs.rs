@@ -1,0 +1,45 @@
+//! Logs that no campaign.toml describes: what the log shows and what the user says make one.
+
+use std::path::{Path, PathBuf};
+
+use lissom_io::inspect::{CampaignDraft, Description, DraftError, Inspection, inspect};
+use lissom_io::{CampaignFile, read_campaign_text};
+
+use crate::shared::failure::Failure;
+
+/// Name of the description in messages.
+const NAME: &str = "description of the log";
+
+/// Logs, as they are described.
+pub(crate) struct DescribedLogs {
+    /// The first log.
+    pub(crate) log: Inspection,
+    /// The campaign made of it.
+    pub(crate) draft: CampaignDraft,
+}
+
+impl DescribedLogs {
+    /// Looks at the first log, and makes a campaign of all.
+    pub(crate) fn new(logs: &[PathBuf], said: &Description) -> Result<Self, Failure> {
+        let first = logs.first().ok_or(lissom_io::Error::from(DraftError::NoLog))?;
+        let log = inspect(first)?;
+        let draft = CampaignDraft::new(&log, logs, said).map_err(lissom_io::Error::from)?;
+        Ok(Self { log, draft })
+    }
+
+    /// What does not agree in the first log.
+    pub(crate) fn notes(&self) -> impl Iterator<Item = &str> {
+        self.log.notes.iter().map(String::as_str)
+    }
+
+    /// Reads the logs.
+    pub(crate) fn read(&self) -> Result<CampaignFile, Failure> {
+        let text = self.draft.text().map_err(lissom_io::Error::from)?;
+        Ok(read_campaign_text(NAME, text)?)
+    }
+}
+
+/// Whether a path is that of a campaign.toml.
+pub(crate) fn is_toml(path: &Path) -> bool {
+    path.extension().is_some_and(|e| e.eq_ignore_ascii_case("toml"))
+}

@@ -1,0 +1,434 @@
+//! A `campaign.toml` made of a log and of what the user says about it.
+
+use std::fmt::Write as _;
+use std::path::{Path, PathBuf};
+
+use lissom_formats::Format;
+
+use super::draft_error::DraftError;
+use super::inspection::{InspectedChannel, Inspection};
+use super::roles::Role;
+use super::stated_unit::UnitSource;
+use super::user_choice::{Choice, CommandKey, quoted};
+use super::words::words;
+use crate::units::{Dimension, parse_any_unit};
+
+/// What a user says about logs. What is absent is taken from the log where it is unambiguous.
+#[derive(Debug, Clone, Default, PartialEq, Eq)]
+pub struct Description {
+    /// The time stamps.
+    pub time: Option<Choice>,
+    /// The sample time of logs without stamps, as in "1 ms".
+    pub sample_time: Option<String>,
+    /// The command.
+    pub command: Option<(CommandKey, Choice)>,
+    /// The motor's angle, position or speed.
+    pub motor: Option<Choice>,
+    /// The motor's speed, in addition to its angle.
+    pub speed: Option<Choice>,
+    /// Points of the arm.
+    pub tips: Vec<Choice>,
+    /// Whether the command is held between samples (`sampled`) or a sensor's value (`measured`).
+    pub hold: Option<String>,
+    /// Keys of `[drive]`, with their values as a `campaign.toml` has them.
+    pub drive: Vec<(String, String)>,
+    /// Whether gravity of an unbalanced load acts.
+    pub gravity: bool,
+    /// m·g·l of this load, as in "2.1 N*m".
+    pub mgl: Option<String>,
+    /// Beginning of every run to leave out, as in "1 s".
+    pub skip: Option<String>,
+}
+
+/// A `campaign.toml`, with what was taken from the log.
+#[derive(Debug, Clone, PartialEq)]
+pub struct CampaignDraft {
+    /// The lines of the file, each with what is said about it.
+    lines: Vec<Line>,
+    /// The first log.
+    file: String,
+}
+
+/// A line of a `campaign.toml`.
+#[derive(Debug, Clone, PartialEq)]
+struct Line {
+    /// The line; empty if something is missing.
+    text: String,
+    /// Why it is there.
+    why: String,
+    /// Whether it was taken from the log, and not said by the user.
+    taken: bool,
+    /// What is missing.
+    missing: Option<DraftError>,
+}
+
+impl Line {
+    fn said(text: String) -> Self {
+        Self { text, why: String::new(), taken: false, missing: None }
+    }
+    fn taken(text: String, why: String) -> Self {
+        Self { text, why, taken: true, missing: None }
+    }
+    fn missing(text: &str, error: DraftError) -> Self {
+        Self { text: text.to_owned(), why: String::new(), taken: true, missing: Some(error) }
+    }
+}
+
+impl CampaignDraft {
+    /// Makes a campaign of logs that have the same channels, of which `log` is the first.
+    ///
+    /// # Errors
+    /// [`DraftError::NoChannel`] if the user names a channel that is not in the log. What is not known is no error here:
+    /// see [`text`](Self::text).
+    pub fn new(
+        log: &Inspection,
+        files: &[PathBuf],
+        said: &Description,
+    ) -> Result<Self, DraftError> {
+        let signals = Signals { log, said };
+        let mut lines = vec![Line::said("[signals]".to_owned()), signals.time()?];
+        lines.push(signals.command()?);
+        lines.push(signals.motor()?);
+        lines.extend(signals.speed()?);
+        lines.extend(signals.tips()?);
+        if log.decimal_comma && log.format == Format::Text {
+            lines.push(Line::taken(
+                "decimal = \",\"".to_owned(),
+                "numbers have a decimal comma".to_owned(),
+            ));
+        }
+        let key = |key: &str, value: &str| Line::said(format!("{key} = {}", toml_value(value)));
+        if !said.drive.is_empty() {
+            lines.push(Line::said("\n[drive]".to_owned()));
+            lines.extend(said.drive.iter().map(|(k, v)| key(k, v)));
+        }
+        if said.gravity || said.mgl.is_some() {
+            lines.push(Line::said("\n[load]\ngravity = true".to_owned()));
+            lines.extend(said.mgl.iter().map(|mgl| key("mgl", mgl)));
+        }
+        if let Some(skip) = &said.skip {
+            lines.push(Line::said("\n[analysis]".to_owned()));
+            lines.push(key("skip", skip));
+        }
+        lines.extend(files.iter().map(|file| run(file, files)));
+        Ok(Self { lines, file: log.file.display().to_string() })
+    }
+
+    /// The text of the `campaign.toml`.
+    ///
+    /// # Errors
+    /// What is neither in the log nor said by the user.
+    pub fn text(&self) -> Result<String, DraftError> {
+        let missing: Vec<DraftError> = self.missing().cloned().collect();
+        if !missing.is_empty() {
+            return Err(DraftError::incomplete(self.file.clone(), missing));
+        }
+        Ok(self.lines.iter().map(|line| format!("{}\n", line.text)).collect())
+    }
+
+    /// What was taken from the log, each with the reason.
+    pub fn taken(&self) -> impl Iterator<Item = (&str, &str)> {
+        let taken = self.lines.iter().filter(|l| l.taken && l.missing.is_none());
+        taken.map(|l| (l.text.as_str(), l.why.as_str()))
+    }
+
+    /// What is missing.
+    pub fn missing(&self) -> impl Iterator<Item = &DraftError> {
+        self.lines.iter().filter_map(|l| l.missing.as_ref())
+    }
+
+    /// The text with comments; what is missing stands there as a comment to complete.
+    pub fn commented(&self) -> String {
+        let mut text = String::new();
+        for line in &self.lines {
+            if let Some(missing) = &line.missing {
+                let _ = writeln!(text, "# TO DO: {missing}");
+                let _ = writeln!(text, "# {}", line.text);
+            } else if line.why.is_empty() {
+                let _ = writeln!(text, "{}", line.text);
+            } else {
+                let _ = writeln!(text, "{}   # {}", line.text, line.why);
+            }
+        }
+        text
+    }
+}
+
+/// The table of a run, named as its file if no other file has that name.
+fn run(file: &Path, files: &[PathBuf]) -> Line {
+    let mut text = format!("\n[[runs]]\nfile = {}", quoted(&file.display().to_string()));
+    let only = files.iter().filter(|f| f.file_name() == file.file_name()).count() == 1;
+    if let Some(name) = file.file_name().filter(|name| only && **name != *file.as_os_str()) {
+        let _ = write!(text, "\nname = {}", quoted(&name.to_string_lossy()));
+    }
+    Line::said(text)
+}
+
+/// A value of TOML: a number as it is, another one as a text.
+fn toml_value(value: &str) -> String {
+    if value.parse::<f64>().is_ok_and(f64::is_finite) { value.to_owned() } else { quoted(value) }
+}
+
+/// Makes the lines of `[signals]`.
+struct Signals<'a> {
+    log: &'a Inspection,
+    said: &'a Description,
+}
+
+/// A channel for a role: which, why, and what the user says about it.
+struct Picked<'a> {
+    channel: &'a InspectedChannel,
+    why: Option<String>,
+    choice: Option<&'a Choice>,
+}
+
+impl<'a> Signals<'a> {
+    fn file(&self) -> String {
+        self.log.file.display().to_string()
+    }
+
+    fn names(&self) -> Vec<String> {
+        self.log.channels.iter().map(InspectedChannel::label).collect()
+    }
+
+    /// The channel that the user names.
+    fn named(&self, choice: &'a Choice) -> Result<Picked<'a>, DraftError> {
+        let wanted = choice.column.as_str();
+        let channels = &self.log.channels;
+        let by = |fits: &dyn Fn(&str) -> bool| {
+            let mut found = channels.iter().filter(|c| fits(&c.name));
+            found.next().filter(|_| found.next().is_none())
+        };
+        let number = || wanted.parse::<usize>().ok().and_then(|n| channels.get(n.checked_sub(1)?));
+        let bare = wanted.trim_start_matches(['#', '%', ' ']);
+        let channel = by(&|name| name == bare)
+            .or_else(|| by(&|name| name.rsplit('/').next() == Some(wanted)))
+            .or_else(|| by(&|name| without_unit(name) == wanted))
+            .or_else(number);
+        let Some(channel) = channel else {
+            let (file, column, names) = (self.file(), wanted.to_owned(), self.names());
+            return Err(DraftError::NoChannel { file, column, names });
+        };
+        Ok(Picked { channel, why: None, choice: Some(choice) })
+    }
+
+    /// The channel for a role: the one that the user names, or the one that is guessed.
+    fn pick(
+        &self,
+        role: Role,
+        said: Option<&'a Choice>,
+    ) -> Result<Result<Picked<'a>, DraftError>, DraftError> {
+        if let Some(choice) = said {
+            return self.named(choice).map(Ok);
+        }
+        let labels = |all: &[usize]| all.iter().map(|k| self.log.channels[*k].label()).collect();
+        Ok(match (self.log.roles.of(role), self.log.roles.several(role)) {
+            (Some(guess), _) => Ok(Picked {
+                channel: &self.log.channels[guess.channel],
+                why: Some(guess.why.clone()),
+                choice: None,
+            }),
+            (None, Some(all)) => {
+                Err(DraftError::Several { file: self.file(), role, names: labels(all) })
+            }
+            (None, None) => {
+                Err(DraftError::NoRole { file: self.file(), role, names: self.names() })
+            }
+        })
+    }
+
+    /// A table `{ column = …, unit = … }` with further keys.
+    fn table(
+        &self,
+        role: Role,
+        picked: &Picked<'_>,
+        more: &[(&str, String)],
+    ) -> Result<(String, String), DraftError> {
+        let channel = picked.channel;
+        let said = picked.choice.and_then(|c| c.unit.clone());
+        let stated = channel.unit.as_ref().filter(|u| u.known.is_some());
+        let Some(unit) = said.or_else(|| stated.map(|u| u.text.clone())) else {
+            let stated = channel.unit.as_ref().map(|u| u.text.clone());
+            let (file, name) = (self.file(), self.spelled(channel));
+            return Err(DraftError::NoUnit { file, role, name, stated });
+        };
+        let mut table = format!("{{ column = {}, unit = {}", self.column(channel), quoted(&unit));
+        let keys = picked.choice.iter().flat_map(|c| &c.keys);
+        let said: Vec<&str> = keys.clone().map(|(key, _)| key.as_str()).collect();
+        let more = more.iter().filter(|(key, _)| !said.contains(key));
+        for (key, value) in more.map(|(k, v)| (*k, v)).chain(keys.map(|(k, v)| (k.as_str(), v))) {
+            let _ = write!(table, ", {key} = {value}");
+        }
+        table.push_str(" }");
+        Ok((table, unit))
+    }
+
+    /// A column as a `campaign.toml` names it: by its name if it is the only one with it.
+    fn column(&self, channel: &InspectedChannel) -> String {
+        let same = self.log.channels.iter().filter(|c| c.name == channel.name).count();
+        if channel.name.is_empty() || same > 1 {
+            channel.number.to_string()
+        } else {
+            quoted(&channel.name)
+        }
+    }
+
+    fn spelled(&self, channel: &InspectedChannel) -> String {
+        self.column(channel).trim_matches('"').to_owned()
+    }
+
+    /// The line for a channel, or what is missing.
+    fn line(&self, key: &str, role: Role, picked: &Picked<'_>, more: &[(&str, String)]) -> Line {
+        match self.table(role, picked, more) {
+            Ok((table, _)) => {
+                let text = format!("{key} = {table}");
+                let unit_from = picked.channel.unit.as_ref().map(|u| u.source);
+                let unit_said = picked.choice.is_some_and(|c| c.unit.is_some());
+                let of_name = !unit_said && unit_from == Some(UnitSource::Name);
+                let unit_why = if of_name { "the unit is the end of its name" } else { "" };
+                let whys = picked.why.iter().map(String::as_str).chain([unit_why]);
+                let why = whys.filter(|w| !w.is_empty()).collect::<Vec<_>>().join("; ");
+                if why.is_empty() { Line::said(text) } else { Line::taken(text, why) }
+            }
+            Err(error) => {
+                let column = self.column(picked.channel);
+                Line::missing(&format!("{key} = {{ column = {column}, unit = \"?\" }}"), error)
+            }
+        }
+    }
+
+    fn time(&self) -> Result<Line, DraftError> {
+        if let Some(sample_time) = &self.said.sample_time {
+            return Ok(Line::said(format!("sample_time = {}", quoted(sample_time))));
+        }
+        Ok(match self.pick(Role::Time, self.said.time.as_ref())? {
+            Ok(picked) => self.line("time", Role::Time, &picked, &[]),
+            Err(error) => Line::missing("time = { column = \"?\", unit = \"s\" }", error),
+        })
+    }
+
+    fn command(&self) -> Result<Line, DraftError> {
+        let (key, role, picked) = match &self.said.command {
+            Some((key, choice)) => {
+                let role = match key {
+                    CommandKey::Current => Role::Current,
+                    CommandKey::Voltage => Role::Voltage,
+                    CommandKey::Command => Role::Torque,
+                };
+                (*key, role, Ok(self.named(choice)?))
+            }
+            None => {
+                let roles = [
+                    (CommandKey::Current, Role::Current),
+                    (CommandKey::Command, Role::Torque),
+                    (CommandKey::Voltage, Role::Voltage),
+                ];
+                let known = |role: &Role| {
+                    self.log.roles.of(*role).is_some() || self.log.roles.several(*role).is_some()
+                };
+                let (key, role) =
+                    roles.into_iter().find(|(_, role)| known(role)).unwrap_or(roles[0]);
+                (key, role, self.pick(role, None)?)
+            }
+        };
+        Ok(match picked {
+            Ok(picked) => {
+                let (hold, why) = self.hold(&picked);
+                let mut line = self.line(key.name(), role, &picked, &[("hold", quoted(hold))]);
+                if line.missing.is_none()
+                    && let Some(why) = why
+                {
+                    line.why =
+                        if line.why.is_empty() { why } else { format!("{}; {why}", line.why) };
+                    line.taken = true;
+                }
+                line
+            }
+            Err(error) => Line::missing(
+                "current = { column = \"?\", unit = \"A\", hold = \"measured\" }",
+                error,
+            ),
+        })
+    }
+
+    /// `hold` of the command, and why if the user does not say it.
+    fn hold(&self, picked: &Picked<'_>) -> (&str, Option<String>) {
+        if let Some(hold) = &self.said.hold {
+            return (hold, None);
+        }
+        if picked.choice.is_some_and(|c| c.keys.iter().any(|(key, _)| key == "hold")) {
+            return ("measured", None);
+        }
+        let words = words(&picked.channel.name);
+        let commanded = [
+            "cmd",
+            "command",
+            "commanded",
+            "ref",
+            "set",
+            "setpoint",
+            "soll",
+            "demand",
+            "target",
+            "pwm",
+            "duty",
+        ];
+        match words.iter().find(|w| commanded.contains(&w.as_str())) {
+            Some(word) => {
+                ("sampled", Some(format!("taken as commanded: its name has \"{word}\"")))
+            }
+            None => (
+                "measured",
+                Some("taken as measured by a sensor; hold = \"sampled\" for a value that the controller commands".to_owned()),
+            ),
+        }
+    }
+
+    fn motor(&self) -> Result<Line, DraftError> {
+        let mut picked = self.pick(Role::Motor, self.said.motor.as_ref())?;
+        if matches!(picked, Err(DraftError::NoRole { .. }))
+            && let Ok(speed) = self.pick(Role::Speed, None)?
+        {
+            picked = Ok(speed);
+        }
+        Ok(match picked {
+            Ok(picked) => {
+                let said = picked.choice.and_then(|c| c.unit.as_deref());
+                let dimension = match said {
+                    Some(unit) => parse_any_unit(unit).ok().map(|(_, dimension)| dimension),
+                    None => picked.channel.dimension(),
+                };
+                let rate = [Dimension::RATE, Dimension::VELOCITY];
+                let speed = dimension.is_some_and(|d| rate.contains(&d));
+                let more = speed.then(|| ("quantity", quoted("speed")));
+                self.line("motor", Role::Motor, &picked, &more.into_iter().collect::<Vec<_>>())
+            }
+            Err(error) => Line::missing("motor = { column = \"?\", unit = \"rad\" }", error),
+        })
+    }
+
+    fn speed(&self) -> Result<Option<Line>, DraftError> {
+        let Some(choice) = &self.said.speed else { return Ok(None) };
+        Ok(Some(self.line("speed", Role::Speed, &self.named(choice)?, &[])))
+    }
+
+    fn tips(&self) -> Result<Option<Line>, DraftError> {
+        let mut tables = Vec::new();
+        for choice in &self.said.tips {
+            let picked = self.named(choice)?;
+            let name = [("name", quoted(&picked.channel.label()))];
+            match self.table(Role::Tip, &picked, &name) {
+                Ok((table, _)) => tables.push(table),
+                Err(error) => return Ok(Some(Line::missing("tips = [{ column = \"?\" }]", error))),
+            }
+        }
+        let text = format!("tips = [{}]", tables.join(", "));
+        Ok((!tables.is_empty()).then(|| Line::said(text)))
+    }
+}
+
+/// A name without the unit in brackets at its end.
+fn without_unit(name: &str) -> &str {
+    let end = name.rfind(['[', '(']).filter(|at| *at > 0).unwrap_or(name.len());
+    name[..end].trim_end()
+}

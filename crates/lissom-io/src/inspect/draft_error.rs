@@ -1,0 +1,183 @@
+//! Why no campaign can be made of a log and what the user says.
+
+use thiserror::Error;
+
+use super::roles::Role;
+use crate::units::UnitError;
+
+/// Why no campaign can be made of a log and what the user says.
+#[derive(Debug, Clone, PartialEq, Error)]
+#[non_exhaustive]
+pub enum DraftError {
+    /// No log is given.
+    #[error("no log is given")]
+    NoLog,
+    /// What is said about a channel cannot be read.
+    #[error("\"{text}\": {reason}")]
+    Choice {
+        /// What was said.
+        text: String,
+        /// What is wrong.
+        reason: String,
+    },
+    /// The unit is not known.
+    #[error("\"{text}\": {source}")]
+    Unit {
+        /// What was said.
+        text: String,
+        /// What is wrong with the unit.
+        source: UnitError,
+    },
+    /// There is no such channel.
+    #[error("{file}: there is no channel \"{column}\"; the channels are {}", list(.names))]
+    NoChannel {
+        /// The log.
+        file: String,
+        /// What was asked for.
+        column: String,
+        /// The channels.
+        names: Vec<String>,
+    },
+    /// Nothing shows which channel has this role.
+    #[error("{file}: no channel is clearly the {}; the channels are {}", .role.name(), list(.names))]
+    NoRole {
+        /// The log.
+        file: String,
+        /// The role.
+        role: Role,
+        /// The channels.
+        names: Vec<String>,
+    },
+    /// Several channels fit.
+    #[error("{file}: several channels may be the {}: {}", .role.name(), list(.names))]
+    Several {
+        /// The log.
+        file: String,
+        /// The role.
+        role: Role,
+        /// These channels.
+        names: Vec<String>,
+    },
+    /// The unit of a channel is not stated.
+    #[error("{file}: the unit of the {}, channel \"{name}\", is not stated{}", .role.name(), not_known(.stated.as_deref()))]
+    NoUnit {
+        /// The log.
+        file: String,
+        /// The role of the channel.
+        role: Role,
+        /// Its name, or its number.
+        name: String,
+        /// A unit that the file states and that is not known.
+        stated: Option<String>,
+    },
+    /// Several things are missing.
+    #[error("{file}: {}", joined(.file, .missing))]
+    Incomplete {
+        /// The log.
+        file: String,
+        /// What is missing.
+        missing: Vec<DraftError>,
+    },
+}
+
+fn joined(file: &str, missing: &[DraftError]) -> String {
+    let before = format!("{file}: ");
+    let bare = |error: &DraftError| {
+        let text = error.to_string();
+        text.strip_prefix(&before).map_or(text.clone(), str::to_owned)
+    };
+    missing.iter().map(bare).collect::<Vec<_>>().join("; ")
+}
+
+/// Channels that are named in a message at most.
+const MOST: usize = 30;
+
+fn list(names: &[String]) -> String {
+    let mut text =
+        names.iter().take(MOST).map(|n| format!("\"{n}\"")).collect::<Vec<_>>().join(", ");
+    if names.len() > MOST {
+        text.push_str(", …");
+    }
+    text
+}
+
+fn not_known(stated: Option<&str>) -> String {
+    stated.map_or_else(String::new, |unit| {
+        format!(" in a unit that is known (the file says \"{unit}\")")
+    })
+}
+
+impl DraftError {
+    /// All that is missing, as one error.
+    pub(super) fn incomplete(file: String, missing: Vec<Self>) -> Self {
+        match <[Self; 1]>::try_from(missing) {
+            Ok([only]) => only,
+            Err(missing) => Self::Incomplete { file, missing },
+        }
+    }
+
+    /// The option that says it, with an example of a unit.
+    pub fn option(&self) -> Option<String> {
+        let quoted = |name: &str, unit: &str| {
+            let said = format!("{name}:{unit}");
+            let plain = said.chars().all(|c| c.is_alphanumeric() || "_.:/[]*".contains(c));
+            if plain { said } else { format!("\"{said}\"") }
+        };
+        let (role, name) = match self {
+            Self::NoRole { role, .. } | Self::Several { role, .. } => (role, None),
+            Self::NoUnit { role, name, .. } => (role, Some(name.as_str())),
+            _ => return None,
+        };
+        let (option, example, unit) = match role {
+            Role::Time => ("time", "COLUMN", "s"),
+            Role::Current => ("current", "COLUMN", "A"),
+            Role::Torque => ("command", "COLUMN", "N*m"),
+            Role::Voltage => ("voltage", "COLUMN", "V"),
+            Role::Motor => ("motor", "COLUMN", "rad"),
+            Role::Speed => ("speed", "COLUMN", "rpm"),
+            Role::Tip => ("tip", "COLUMN", "rad"),
+        };
+        Some(format!("--{option} {}", quoted(name.unwrap_or(example), unit)))
+    }
+
+    /// What the user can do.
+    pub fn hint(&self) -> Option<String> {
+        match self {
+            Self::NoLog => None,
+            Self::Choice { .. } => {
+                Some("write COLUMN:UNIT, as in q:deg, or counts:rad,scale=0.001534".to_owned())
+            }
+            Self::Unit { source, .. } => source.hint(),
+            Self::NoChannel { .. } => {
+                Some("give the name of a channel as in this list, or its number from 1".to_owned())
+            }
+            Self::NoRole { role, .. } | Self::Several { role, .. } | Self::NoUnit { role, .. } => {
+                Some(format!("{}{}", with_right_units(self.option()), more(*role)))
+            }
+            Self::Incomplete { missing, .. } => {
+                let options: Vec<String> = missing.iter().filter_map(Self::option).collect();
+                Some(with_right_units(Some(options.join(" "))))
+            }
+        }
+    }
+}
+
+fn with_right_units(options: Option<String>) -> String {
+    format!("state it with the right unit, as in: {}", options.unwrap_or_default())
+}
+
+/// Other ways to say what has this role.
+fn more(role: Role) -> &'static str {
+    match role {
+        Role::Time => "; without time stamps --sample-time \"1 ms\"",
+        Role::Current => {
+            "; another input of the drive as --voltage u:V, --command tau:N*m, or --command v:1 if its unit is unknown"
+        }
+        Role::Torque => "; --command v:1 if its unit is unknown",
+        Role::Motor => {
+            "; a speed as --motor n:rpm, counts of an encoder as --motor counts:rad,scale=0.001534 (2π divided by the \
+             counts per turn)"
+        }
+        Role::Voltage | Role::Speed | Role::Tip => "",
+    }
+}

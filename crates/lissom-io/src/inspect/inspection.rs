@@ -1,0 +1,192 @@
+//! A log, described before anything is known about it.
+
+use std::path::{Path, PathBuf};
+
+use lissom_formats::{Clock, Format, LogData, read};
+
+use super::channel_facts::ChannelFacts;
+use super::clock_facts::ClockFacts;
+use super::relations::{MOST_CHANNELS, Relation, relation};
+use super::roles::{Guess, Role, Roles, looks_like_time};
+use super::stated_unit::{StatedUnit, stated_unit};
+use crate::io_error::Error;
+use crate::log::LogError;
+use crate::units::Dimension;
+
+/// Share by which the factor of a rate may differ from that of the stated units.
+const UNITS_AGREE: f64 = 0.1;
+/// Sample times that no log of a drive has [s].
+pub(super) const SAMPLE_TIMES_S: [f64; 2] = [4e-6, 0.3];
+
+/// A log, described before anything is known about it.
+#[derive(Debug, Clone)]
+pub struct Inspection {
+    /// The file.
+    pub file: PathBuf,
+    /// Its format.
+    pub format: Format,
+    /// Whether numbers have a decimal comma.
+    pub decimal_comma: bool,
+    /// The channels, in the order of the file.
+    pub channels: Vec<InspectedChannel>,
+    /// The clock that most channels use, or that the time stamps give.
+    pub clock: Option<ClockFacts>,
+    /// Which channel is probably what.
+    pub roles: Roles,
+    /// What was left out while the file was read, and what does not agree, in words.
+    pub notes: Vec<String>,
+    /// The content of the file.
+    pub data: LogData,
+}
+
+/// A channel, described by itself.
+#[derive(Debug, Clone)]
+pub struct InspectedChannel {
+    /// Number of the channel, from 1, as a `campaign.toml` counts.
+    pub number: usize,
+    /// Its name; empty if the file has no names.
+    pub name: String,
+    /// Its unit, as the file states it.
+    pub unit: Option<StatedUnit>,
+    /// What its values show.
+    pub facts: ChannelFacts,
+    /// How it follows from another channel.
+    pub relation: Option<Relation>,
+    /// Index of the channel with its time stamps, where the format says so.
+    pub time: Option<usize>,
+    /// The first cell that is not a number: row and text.
+    pub not_a_number: Option<(usize, String)>,
+}
+
+impl InspectedChannel {
+    /// Its name, or `column 3` if it has none.
+    pub fn label(&self) -> String {
+        if self.name.is_empty() { format!("column {}", self.number) } else { self.name.clone() }
+    }
+
+    /// Dimension of its unit, if it is known.
+    pub fn dimension(&self) -> Option<Dimension> {
+        self.unit.as_ref()?.known.map(|(_, dimension)| dimension)
+    }
+
+    /// Size of its unit in SI, if it is known.
+    pub(super) fn size(&self) -> Option<f64> {
+        self.unit.as_ref()?.known.map(|(size, _)| size)
+    }
+}
+
+/// Reads a log of any format and describes it.
+///
+/// # Errors
+/// [`Error::Log`] if the file cannot be read, is of a format that is not read, or has no table of numbers.
+pub fn inspect(path: &Path) -> Result<Inspection, Error> {
+    let file = path.display().to_string();
+    let data = read(path).map_err(|error| LogError::of_format(file, error))?;
+    Ok(of_data(path, data))
+}
+
+fn of_data(path: &Path, data: LogData) -> Inspection {
+    let mut channels: Vec<InspectedChannel> =
+        data.channels.iter().enumerate().map(described).collect();
+    let stamps = looks_like_time(&channels, &data);
+    let time = stamps.as_ref().map(|guess| guess.channel);
+    relate(&mut channels, &data, time);
+    let clock = time.and_then(|k| ClockFacts::of(&data.channels[k].values));
+    let roles = Roles::guessed(&channels, stamps);
+    let mut notes = data.notes.clone();
+    notes.extend(contradictions(&channels, clock.as_ref(), time));
+    Inspection {
+        file: path.to_owned(),
+        format: data.format,
+        decimal_comma: data.decimal_comma,
+        channels,
+        clock,
+        roles,
+        notes,
+        data,
+    }
+}
+
+fn described((k, channel): (usize, &lissom_formats::Channel)) -> InspectedChannel {
+    InspectedChannel {
+        number: k + 1,
+        name: channel.name.trim().trim_start_matches(['#', '%', ' ']).to_owned(),
+        unit: stated_unit(channel),
+        facts: ChannelFacts::of(&channel.values),
+        relation: None,
+        time: match channel.clock {
+            Clock::Channel(time) => Some(time),
+            Clock::Unstated | Clock::Even { .. } => None,
+        },
+        not_a_number: channel.not_a_number.clone(),
+    }
+}
+
+/// Finds channels that follow from another one.
+fn relate(channels: &mut [InspectedChannel], data: &LogData, time: Option<usize>) {
+    if channels.len() > MOST_CHANNELS {
+        return;
+    }
+    let values = |k: usize| &data.channels[k].values[..];
+    let usable = |c: &InspectedChannel| !c.facts.constant && c.not_a_number.is_none();
+    for k in 0..channels.len() {
+        if Some(k) == time || !usable(&channels[k]) {
+            continue;
+        }
+        let stamps = channels[k].time.or(time).map(values).filter(|t| t.len() == values(k).len());
+        let multiples = (0..k).filter(|j| Some(*j) != time);
+        let others: Vec<(usize, &[f64])> = multiples
+            .chain(k + 1..channels.len())
+            .filter(|j| Some(*j) != time && usable(&channels[*j]))
+            .filter(|j| values(*j).len() == values(k).len())
+            .map(|j| (j, values(j)))
+            .collect();
+        channels[k].relation = match relation(values(k), &others, stamps) {
+            // Of two multiples the later one follows from the earlier one.
+            Some(Relation::Multiple { of, .. }) if of > k => None,
+            found => found,
+        };
+    }
+}
+
+/// What the data say against the stated units.
+fn contradictions(
+    channels: &[InspectedChannel],
+    clock: Option<&ClockFacts>,
+    time: Option<usize>,
+) -> Vec<String> {
+    let mut notes = Vec::new();
+    let unit_s = time.and_then(|k| channels[k].size());
+    if let (Some(clock), Some(unit_s), Some(k)) = (clock, unit_s, time) {
+        let step_s = clock.step * unit_s;
+        if !(SAMPLE_TIMES_S[0]..SAMPLE_TIMES_S[1]).contains(&step_s) {
+            notes.push(format!(
+                "with the unit of {} as stated, samples are {step_s:.3e} s apart, which no log of a drive is: the unit of \
+                 the time stamps is probably another one",
+                channels[k].label()
+            ));
+        }
+    }
+    let Some(unit_s) = unit_s else { return notes };
+    for channel in channels {
+        let Some(Relation::Rate { of, factor }) = channel.relation else { continue };
+        let (Some(speed), Some(angle)) = (channel.size(), channels[of].size()) else { continue };
+        let ratio = factor * speed * unit_s / angle;
+        if (ratio - 1.0).abs() > UNITS_AGREE {
+            notes.push(format!(
+                "{} is the rate of {}, but with the stated units it is {ratio:.4} times as large: one of the units, or that \
+                 of the time stamps, is wrong",
+                channel.label(),
+                channels[of].label()
+            ));
+        }
+    }
+    notes
+}
+
+impl Inspection {
+    /// The guess for a role.
+    pub fn guess(&self, role: Role) -> Option<&Guess> {
+        self.roles.of(role)
+    }
+}

@@ -1,0 +1,30 @@
+//! A look at a log before anything is known about it: channels, units, clock, and which channel is probably what.
+//!
+//! [`inspect`] reads a log of any format and describes its channels. [`Roles::guessed`] says which channel is probably
+//! the time, the command and the motor, and why. [`CampaignDraft`] makes a `campaign.toml` of that and of what the user
+//! says; units come from the file or from the user, never from a guess.
+
+mod channel_facts;
+mod clock_facts;
+mod draft;
+mod draft_error;
+mod inspection;
+mod inspection_file;
+mod relations;
+mod roles;
+mod stated_unit;
+mod user_choice;
+mod words;
+
+pub use channel_facts::ChannelFacts;
+pub use clock_facts::ClockFacts;
+pub use draft::{CampaignDraft, Description};
+pub use draft_error::DraftError;
+pub use inspection::{InspectedChannel, Inspection, inspect};
+pub use inspection_file::{
+    ClockEntry, InspectedChannelEntry, InspectedLogEntry, InspectionFile, RoleEntry,
+};
+pub use relations::Relation;
+pub use roles::{Guess, Role, Roles};
+pub use stated_unit::{StatedUnit, UnitSource};
+pub use user_choice::{Choice, CommandKey};

@@ -1,0 +1,44 @@
+//! Words in names of channels.
+
+/// The words of a name in small letters, without numbers at their ends: `["field", "position"]` for `field.position0`,
+/// `["motor", "current"]` for `motorCurrent [A]`.
+pub(super) fn words(name: &str) -> Vec<String> {
+    let end = name.trim_end().rfind(['[', '(']).filter(|at| *at > 0).unwrap_or(name.len());
+    let mut found = Vec::new();
+    let mut word = String::new();
+    let mut small_before = false;
+    for letter in name[..end].chars() {
+        let begins = letter.is_uppercase() && small_before;
+        if begins || !letter.is_alphanumeric() {
+            push(&mut found, &word);
+            word.clear();
+        }
+        if letter.is_alphanumeric() {
+            word.extend(letter.to_lowercase());
+        }
+        small_before = letter.is_lowercase();
+    }
+    push(&mut found, &word);
+    found
+}
+
+fn push(found: &mut Vec<String>, word: &str) {
+    let bare = word.trim_end_matches(|c: char| c.is_ascii_digit());
+    if !bare.is_empty() {
+        found.push(bare.to_owned());
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::words;
+
+    #[test]
+    fn parts_of_names() {
+        assert_eq!(words("field.position0"), ["field", "position"]);
+        assert_eq!(words("motorCurrent [A]"), ["motor", "current"]);
+        assert_eq!(words("Axis 1: ActPos"), ["axis", "act", "pos"]);
+        assert_eq!(words("%time"), ["time"]);
+        assert_eq!(words("2"), Vec::<String>::new());
+    }
+}
