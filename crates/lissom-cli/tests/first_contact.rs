@@ -189,7 +189,7 @@ fn a_unit_that_the_data_contradict() {
     let words = shown.split_whitespace().collect::<Vec<_>>().join(" ");
     assert!(
         words.contains(
-            "n [rpm] is the rate of q [rad], but with the stated units it is 0.0175 times"
+            "n [rpm] is the rate of q [rad], but with the stated units it is 0.0174 times"
         ),
         "{shown}"
     );
