@@ -10,7 +10,7 @@ use ruzstd::decoding::StreamingDecoder;
 use crate::format_error::FormatError;
 
 /// Largest number of bytes, after expansion.
-const MOST_BYTES: u64 = 2 << 30;
+pub(crate) const MOST_BYTES: u64 = 2 << 30;
 
 /// First bytes of gzip and of zstd.
 pub(crate) const GZIP: &[u8] = b"\x1f\x8b";

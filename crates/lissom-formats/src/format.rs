@@ -1,6 +1,8 @@
 //! Formats, recognised by the first bytes of a file.
 
+use crate::binary;
 use crate::bytes::{GZIP, ZSTD};
+use crate::zip::ZIP;
 
 /// Format of a log file.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -16,6 +18,10 @@ pub enum Format {
     Codesys,
     /// JSON: arrays, records, or a record on each line.
     Json,
+    /// Array of NumPy.
+    Npy,
+    /// Archive of arrays of NumPy.
+    Npz,
 }
 
 impl Format {
@@ -27,6 +33,8 @@ impl Format {
             Self::TwinCat => "TwinCAT Scope export",
             Self::Codesys => "CODESYS trace",
             Self::Json => "JSON",
+            Self::Npy => "NumPy array",
+            Self::Npz => "NumPy archive",
         }
     }
 }
@@ -34,14 +42,13 @@ impl Format {
 /// A format that is recognised and not read, with the way out.
 pub(crate) fn foreign(bytes: &[u8]) -> Option<(&'static str, &'static str)> {
     /// First bytes, name, way out.
-    const KNOWN: [(&[u8], &str, &str); 15] = [
+    const KNOWN: [(&[u8], &str, &str); 14] = [
         (b"%PDF", "a PDF document", NO_TABLE),
         (b"\x89PNG", "a picture", NO_TABLE),
         (b"\xFF\xD8\xFF", "a picture", NO_TABLE),
         (b"\x89HDF\r\n\x1a\n", "an HDF5 file (MATLAB v7.3 files are such files)", AS_CSV),
         (b"MATLAB 5.0 MAT-file", "a MATLAB file", MATLAB),
-        (b"\x93NUMPY", "a NumPy array", NUMPY),
-        (b"PK\x03\x04", "a ZIP archive (xlsx and npz files are such archives)", ARCHIVE),
+        (ZIP, "a ZIP archive without NumPy arrays (xlsx files are such archives)", ARCHIVE),
         (b"WPILOG", "a WPILib log", "export it as CSV with AdvantageScope"),
         (b"\x89MCAP0\r\n", "an MCAP file", AS_CSV),
         (b"PAR1", "a Parquet file", "in Python: pandas.read_parquet(FILE).to_csv(\"log.csv\")"),
@@ -62,7 +69,6 @@ pub(crate) fn foreign(bytes: &[u8]) -> Option<(&'static str, &'static str)> {
     const NO_TABLE: &str = "give the table of numbers as text";
     const AS_CSV: &str = "export the channels as CSV";
     const MATLAB: &str = "in MATLAB: writetable(struct2table(S), \"log.csv\")";
-    const NUMPY: &str = "in Python: numpy.savetxt(\"log.csv\", numpy.load(FILE), delimiter=\",\")";
     const ARCHIVE: &str = "unpack it, or save the table as CSV";
     const BAG: &str = "convert the bag to MCAP or export the topics as CSV";
     const PICKLE: &str = "pickles can run programs and are never loaded; in Python: \
@@ -70,9 +76,11 @@ pub(crate) fn foreign(bytes: &[u8]) -> Option<(&'static str, &'static str)> {
     KNOWN.into_iter().find(|(first, ..)| bytes.starts_with(first)).map(|(_, name, way)| (name, way))
 }
 
-/// Whether the first bytes of a file show that it is not a plain table: compressed, a trace of CODESYS, or a format that is
-/// recognised and not read.
+/// Whether the first bytes of a file show that it is not a plain table: compressed, a trace of CODESYS, binary, or a format
+/// that is recognised and not read.
 pub fn is_no_plain_table(first: &[u8]) -> bool {
     let begins = [GZIP, ZSTD, b"[key]"];
-    begins.iter().any(|begin| first.starts_with(begin)) || foreign(first).is_some()
+    begins.iter().any(|begin| first.starts_with(begin))
+        || binary::is_recognised(first)
+        || foreign(first).is_some()
 }

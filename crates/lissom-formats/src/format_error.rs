@@ -35,6 +35,14 @@ pub enum FormatError {
         /// The way out.
         way_out: &'static str,
     },
+    /// The format is read, but not what this file contains.
+    #[error("has no channel that can be read: it contains {what}")]
+    LeftOut {
+        /// What it contains.
+        what: String,
+        /// The way out.
+        way_out: &'static str,
+    },
     /// No table of numbers was found.
     #[error("there is no table of numbers in the file")]
     NoTable,
@@ -67,7 +75,7 @@ impl FormatError {
             Self::Read { .. } => "check the path and the permissions",
             Self::TooLarge { .. } => "split the log, or leave out channels",
             Self::Damaged { .. } => "copy the file again",
-            Self::Foreign { way_out, .. } => way_out,
+            Self::Foreign { way_out, .. } | Self::LeftOut { way_out, .. } => way_out,
             Self::NotText { .. } => "export the log as CSV",
             Self::Json { .. } => "export the log again: the file may be cut off",
             Self::NoTable => "a log has one row for each sample and one column for each channel",

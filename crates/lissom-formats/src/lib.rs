@@ -8,16 +8,24 @@
 //! | delimited text | preambles of any length, header, row of units, time stamps, blank cells, one row per signal |
 //! | TwinCAT Scope, CODESYS trace | each channel with its own clock |
 //! | JSON | arrays, records, lines |
+//! | NumPy `.npy`, `.npz` | numbers of all types, structured arrays by field |
 //!
 //! Text may be UTF-8, UTF-16 or Windows-1252; `.gz` and `.zst` are expanded.
 
+mod array;
+mod binary;
 mod bytes;
+mod collected;
+mod cursor;
 mod format;
 mod format_error;
 mod json;
 mod log_data;
+mod number;
+mod numpy;
 mod read;
 mod text;
+mod zip;
 
 pub use format::{Format, is_no_plain_table};
 pub use format_error::FormatError;

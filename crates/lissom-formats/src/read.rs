@@ -5,7 +5,7 @@ use std::path::Path;
 use crate::format::foreign;
 use crate::format_error::FormatError;
 use crate::log_data::LogData;
-use crate::{bytes, json, text};
+use crate::{binary, bytes, json, text};
 
 /// Reads all channels of a log file.
 ///
@@ -24,6 +24,9 @@ pub fn read_bytes(bytes: Vec<u8>) -> Result<LogData, FormatError> {
 }
 
 fn of_expanded(bytes: &[u8]) -> Result<LogData, FormatError> {
+    if let Some(found) = binary::read(bytes) {
+        return found;
+    }
     if let Some((what, way_out)) = foreign(bytes) {
         return Err(FormatError::Foreign { what, way_out });
     }

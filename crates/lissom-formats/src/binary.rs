@@ -1,0 +1,34 @@
+//! Binary formats, recognised by their first bytes.
+
+use crate::format_error::FormatError;
+use crate::log_data::LogData;
+use crate::{numpy, zip};
+
+/// A binary format.
+struct Binary {
+    /// Whether a file begins as this format does.
+    begins: fn(&[u8]) -> bool,
+    read: fn(&[u8]) -> Result<LogData, FormatError>,
+}
+
+const BINARY: [Binary; 1] =
+    [Binary { begins: |bytes| bytes.starts_with(numpy::NPY), read: numpy::read_npy }];
+
+fn of(bytes: &[u8]) -> Option<&'static Binary> {
+    BINARY.iter().find(|format| (format.begins)(bytes))
+}
+
+/// Whether a file begins as a binary format that is read.
+pub(crate) fn is_recognised(first: &[u8]) -> bool {
+    of(first).is_some()
+}
+
+/// Reads a file; `None` if it is of none of the binary formats.
+pub(crate) fn read(bytes: &[u8]) -> Option<Result<LogData, FormatError>> {
+    if let Some(format) = of(bytes) {
+        return Some((format.read)(bytes));
+    }
+    // An archive is one of arrays by its entries, not by its first bytes.
+    let entries = bytes.starts_with(zip::ZIP).then(|| zip::entries(bytes))??;
+    numpy::is_npz(&entries).then(|| numpy::read_npz(bytes, &entries))
+}

@@ -1,0 +1,102 @@
+//! Channels of a file while it is read, and what of the file is left out.
+
+use crate::bytes::MOST_BYTES;
+use crate::format::Format;
+use crate::format_error::FormatError;
+use crate::log_data::{Channel, LogData};
+
+/// Most names in a note.
+const MOST_NAMES: usize = 5;
+/// Most notes of a file.
+const MOST_NOTES: usize = 50;
+
+/// Why a part of a file is left out, and how the user can convert it.
+#[derive(Debug, PartialEq, Eq)]
+pub(crate) struct LeftOut {
+    /// What the part is, in the plural.
+    pub(crate) what: &'static str,
+    /// What the user can do.
+    pub(crate) way_out: &'static str,
+}
+
+/// The channels of a file while it is read.
+#[derive(Debug)]
+pub(crate) struct Collected {
+    pub(crate) channels: Vec<Channel>,
+    notes: Vec<String>,
+    left_out: Vec<(&'static LeftOut, Vec<String>, usize)>,
+    /// The bytes that the file may still take in memory.
+    budget: u64,
+}
+
+impl Collected {
+    pub(crate) fn new() -> Self {
+        Self { channels: Vec::new(), notes: Vec::new(), left_out: Vec::new(), budget: MOST_BYTES }
+    }
+
+    /// Counts bytes that a part of the file takes in memory: compressed files, and numbers of few bits, become larger than
+    /// the file.
+    ///
+    /// # Errors
+    /// [`FormatError::TooLarge`] if the file becomes too large.
+    pub(crate) fn take_bytes(&mut self, bytes: usize) -> Result<(), FormatError> {
+        match self.budget.checked_sub(bytes as u64) {
+            Some(left) => {
+                self.budget = left;
+                Ok(())
+            }
+            None => Err(FormatError::TooLarge { most: MOST_BYTES }),
+        }
+    }
+
+    /// Counts bytes that are no longer in memory.
+    pub(crate) fn release_bytes(&mut self, bytes: usize) {
+        self.budget = self.budget.saturating_add(bytes as u64).min(MOST_BYTES);
+    }
+
+    pub(crate) fn note(&mut self, note: impl Into<String>) {
+        if self.notes.len() < MOST_NOTES {
+            self.notes.push(note.into());
+        }
+    }
+
+    /// Leaves out a part of the file.
+    pub(crate) fn leave_out(&mut self, name: &str, why: &'static LeftOut) {
+        let place = self.left_out.iter().position(|(reason, ..)| *reason == why);
+        let place = place.unwrap_or_else(|| {
+            self.left_out.push((why, Vec::new(), 0));
+            self.left_out.len() - 1
+        });
+        if let Some((_, names, more)) = self.left_out.get_mut(place) {
+            if names.len() < MOST_NAMES {
+                names.push(name.to_owned());
+            } else {
+                *more += 1;
+            }
+        }
+    }
+
+    /// The content of the file.
+    ///
+    /// # Errors
+    /// [`FormatError::LeftOut`] if all that the file contains is left out; [`FormatError::NoTable`] if it contains nothing.
+    pub(crate) fn finish(mut self, format: Format) -> Result<LogData, FormatError> {
+        let listed = |names: &[String], more: usize| match more {
+            0 => names.join(", "),
+            more => format!("{} and {more} more", names.join(", ")),
+        };
+        if self.channels.is_empty() {
+            let Some((why, names, more)) = self.left_out.first() else {
+                return Err(FormatError::NoTable);
+            };
+            let what = format!("{} ({})", why.what, listed(names, *more));
+            return Err(FormatError::LeftOut { what, way_out: why.way_out });
+        }
+        for (why, names, more) in &self.left_out {
+            let names = listed(names, *more);
+            self.notes.push(format!("left out: {names} ({}); {}", why.what, why.way_out));
+        }
+        let Self { channels, notes, .. } = self;
+        Ok(LogData { format, channels, decimal_comma: false, notes })
+    }
+}

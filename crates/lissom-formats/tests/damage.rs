@@ -1,0 +1,57 @@
+//! Damaged files: cut off at every byte, and with every byte changed. None may stop the program, and none may take long.
+
+#![expect(clippy::unwrap_used, reason = "tests")]
+
+use std::path::PathBuf;
+use std::time::{Duration, Instant};
+
+use lissom_formats::{LogData, read_bytes};
+
+/// Longest time to read a damaged file of a few kB.
+const LONGEST: Duration = Duration::from_secs(2);
+/// Changes of a byte: one bit low, one bit high, all bits.
+const CHANGES: [u8; 3] = [0x01, 0x80, 0xff];
+
+fn samples() -> Vec<(PathBuf, Vec<u8>)> {
+    let folder = PathBuf::from(env!("CARGO_MANIFEST_DIR")).join("tests/files");
+    let mut paths: Vec<PathBuf> =
+        std::fs::read_dir(folder).unwrap().map(|entry| entry.unwrap().path()).collect();
+    paths.sort();
+    paths.into_iter().map(|path| (path.clone(), std::fs::read(path).unwrap())).collect()
+}
+
+fn values(data: &LogData) -> usize {
+    data.channels.iter().map(|c| c.values.len()).sum()
+}
+
+#[test]
+fn a_file_that_is_cut_off_is_an_error_or_a_shorter_log_with_a_note() {
+    for (path, bytes) in samples() {
+        let whole = read_bytes(bytes.clone()).unwrap();
+        for length in 0..bytes.len() {
+            let begun = Instant::now();
+            let cut = read_bytes(bytes[..length].to_vec());
+            assert!(begun.elapsed() < LONGEST, "{}: {length} bytes", path.display());
+            let Ok(cut) = cut else { continue };
+            let whole = (values(&whole), whole.notes.len());
+            let told =
+                values(&cut) == whole.0 || (values(&cut) < whole.0 && cut.notes.len() > whole.1);
+            assert!(told, "{}: {length} bytes: {:?}", path.display(), cut.notes);
+        }
+    }
+}
+
+#[test]
+fn a_changed_byte_never_stops_the_program() {
+    for (path, bytes) in samples() {
+        for place in 0..bytes.len() {
+            for change in CHANGES {
+                let mut changed = bytes.clone();
+                changed[place] ^= change;
+                let begun = Instant::now();
+                let _ = read_bytes(changed);
+                assert!(begun.elapsed() < LONGEST, "{}: byte {place}", path.display());
+            }
+        }
+    }
+}

@@ -1,0 +1,27 @@
+"""Writes log files with other people's libraries, and beside each the channels that should be found in it.
+
+    pip install numpy scipy npTDMS pyuff robotpy-wpiutil
+    python write.py FOLDER
+    LISSOM_EXTERNAL=FOLDER cargo test -p lissom-formats --test external -- --nocapture
+"""
+
+import pathlib
+import sys
+
+import numpy as np
+
+import numpy_files
+
+SEED = 20261127
+
+
+def main(folder):
+    for module in (numpy_files,):
+        place = pathlib.Path(folder) / module.__name__
+        place.mkdir(parents=True, exist_ok=True)
+        count = module.write_all(place, np.random.default_rng(SEED))
+        print(f"{module.__name__}: {count} files")
+
+
+if __name__ == "__main__":
+    main(sys.argv[1])
