@@ -98,6 +98,15 @@ impl Array<'_> {
         Ok(())
     }
 
+    /// Its number, if it has one.
+    pub(crate) fn scalar(&self) -> Option<f64> {
+        let mut value = Vec::with_capacity(1);
+        if self.axes.iter().all(|axis| axis.length == 1) {
+            self.number.append(&mut value, self.bytes, self.number.kind.size(), 1);
+        }
+        value.pop()
+    }
+
     /// Bytes from the beginning to the end of the last item.
     fn reach(&self) -> Option<usize> {
         let last = |reach: usize, axis: &Axis| {

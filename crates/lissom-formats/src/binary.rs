@@ -2,7 +2,7 @@
 
 use crate::format_error::FormatError;
 use crate::log_data::LogData;
-use crate::{numpy, zip};
+use crate::{matlab, numpy, zip};
 
 /// A binary format.
 struct Binary {
@@ -11,8 +11,11 @@ struct Binary {
     read: fn(&[u8]) -> Result<LogData, FormatError>,
 }
 
-const BINARY: [Binary; 1] =
-    [Binary { begins: |bytes| bytes.starts_with(numpy::NPY), read: numpy::read_npy }];
+const BINARY: [Binary; 3] = [
+    Binary { begins: |bytes| bytes.starts_with(numpy::NPY), read: numpy::read_npy },
+    Binary { begins: matlab::begins_v5, read: matlab::read_v5 },
+    Binary { begins: matlab::begins_v4, read: matlab::read_v4 },
+];
 
 fn of(bytes: &[u8]) -> Option<&'static Binary> {
     BINARY.iter().find(|format| (format.begins)(bytes))

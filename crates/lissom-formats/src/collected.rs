@@ -87,7 +87,10 @@ impl Collected {
         };
         if self.channels.is_empty() {
             let Some((why, names, more)) = self.left_out.first() else {
-                return Err(FormatError::NoTable);
+                return Err(match self.notes.into_iter().next() {
+                    Some(note) => FormatError::content("no channel can be read", note),
+                    None => FormatError::NoTable,
+                });
             };
             let what = format!("{} ({})", why.what, listed(names, *more));
             return Err(FormatError::LeftOut { what, way_out: why.way_out });

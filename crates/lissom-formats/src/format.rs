@@ -18,6 +18,8 @@ pub enum Format {
     Codesys,
     /// JSON: arrays, records, or a record on each line.
     Json,
+    /// MATLAB file of a version before 7.3.
+    Matlab,
     /// Array of NumPy.
     Npy,
     /// Archive of arrays of NumPy.
@@ -33,6 +35,7 @@ impl Format {
             Self::TwinCat => "TwinCAT Scope export",
             Self::Codesys => "CODESYS trace",
             Self::Json => "JSON",
+            Self::Matlab => "MATLAB file",
             Self::Npy => "NumPy array",
             Self::Npz => "NumPy archive",
         }
@@ -47,7 +50,7 @@ pub(crate) fn foreign(bytes: &[u8]) -> Option<(&'static str, &'static str)> {
         (b"\x89PNG", "a picture", NO_TABLE),
         (b"\xFF\xD8\xFF", "a picture", NO_TABLE),
         (b"\x89HDF\r\n\x1a\n", "an HDF5 file (MATLAB v7.3 files are such files)", AS_CSV),
-        (b"MATLAB 5.0 MAT-file", "a MATLAB file", MATLAB),
+        (b"MATLAB 7.", "a MATLAB file of version 7.3 (HDF5)", MATLAB),
         (ZIP, "a ZIP archive without NumPy arrays (xlsx files are such archives)", ARCHIVE),
         (b"WPILOG", "a WPILib log", "export it as CSV with AdvantageScope"),
         (b"\x89MCAP0\r\n", "an MCAP file", AS_CSV),
@@ -68,7 +71,7 @@ pub(crate) fn foreign(bytes: &[u8]) -> Option<(&'static str, &'static str)> {
     ];
     const NO_TABLE: &str = "give the table of numbers as text";
     const AS_CSV: &str = "export the channels as CSV";
-    const MATLAB: &str = "in MATLAB: writetable(struct2table(S), \"log.csv\")";
+    const MATLAB: &str = "in MATLAB: load(FILE); save(\"log.mat\", \"-v7\")";
     const ARCHIVE: &str = "unpack it, or save the table as CSV";
     const BAG: &str = "convert the bag to MCAP or export the topics as CSV";
     const PICKLE: &str = "pickles can run programs and are never loaded; in Python: \

@@ -8,6 +8,7 @@
 //! | delimited text | preambles of any length, header, row of units, time stamps, blank cells, one row per signal |
 //! | TwinCAT Scope, CODESYS trace | each channel with its own clock |
 //! | JSON | arrays, records, lines |
+//! | MATLAB v4, v5, v6, v7 | matrices, structs, struct arrays, cells; a structure with time has its clock |
 //! | NumPy `.npy`, `.npz` | numbers of all types, structured arrays by field |
 //!
 //! Text may be UTF-8, UTF-16 or Windows-1252; `.gz` and `.zst` are expanded.
@@ -21,6 +22,7 @@ mod format;
 mod format_error;
 mod json;
 mod log_data;
+mod matlab;
 mod number;
 mod numpy;
 mod read;
