@@ -24,6 +24,8 @@ pub enum Format {
     Npy,
     /// Archive of arrays of NumPy.
     Npz,
+    /// Data log of WPILib.
+    WpiLog,
 }
 
 impl Format {
@@ -37,6 +39,7 @@ impl Format {
             Self::Json => "JSON",
             Self::Matlab => "MATLAB file",
             Self::Npy => "NumPy array",
+            Self::WpiLog => "WPILib log",
             Self::Npz => "NumPy archive",
         }
     }
@@ -45,14 +48,13 @@ impl Format {
 /// A format that is recognised and not read, with the way out.
 pub(crate) fn foreign(bytes: &[u8]) -> Option<(&'static str, &'static str)> {
     /// First bytes, name, way out.
-    const KNOWN: [(&[u8], &str, &str); 14] = [
+    const KNOWN: [(&[u8], &str, &str); 13] = [
         (b"%PDF", "a PDF document", NO_TABLE),
         (b"\x89PNG", "a picture", NO_TABLE),
         (b"\xFF\xD8\xFF", "a picture", NO_TABLE),
         (b"\x89HDF\r\n\x1a\n", "an HDF5 file (MATLAB v7.3 files are such files)", AS_CSV),
         (b"MATLAB 7.", "a MATLAB file of version 7.3 (HDF5)", MATLAB),
         (ZIP, "a ZIP archive without NumPy arrays (xlsx files are such archives)", ARCHIVE),
-        (b"WPILOG", "a WPILib log", "export it as CSV with AdvantageScope"),
         (b"\x89MCAP0\r\n", "an MCAP file", AS_CSV),
         (b"PAR1", "a Parquet file", "in Python: pandas.read_parquet(FILE).to_csv(\"log.csv\")"),
         (

@@ -10,6 +10,7 @@
 //! | JSON | arrays, records, lines |
 //! | MATLAB v4, v5, v6, v7 | matrices, structs, struct arrays, cells; a structure with time has its clock |
 //! | NumPy `.npy`, `.npz` | numbers of all types, structured arrays by field |
+//! | WPILib `.wpilog` | entries of numbers and of arrays of numbers, each with its own clock |
 //!
 //! Text may be UTF-8, UTF-16 or Windows-1252; `.gz` and `.zst` are expanded.
 
@@ -27,6 +28,7 @@ mod number;
 mod numpy;
 mod read;
 mod text;
+mod wpilog;
 mod zip;
 
 pub use format::{Format, is_no_plain_table};

@@ -1,7 +1,7 @@
 //! Numbers of binary files.
 
 /// Type of the numbers of a binary file.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 pub(crate) enum NumberType {
     I8,
     I16,
