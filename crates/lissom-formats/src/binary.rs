@@ -2,7 +2,7 @@
 
 use crate::format_error::FormatError;
 use crate::log_data::LogData;
-use crate::{matlab, numpy, wpilog, zip};
+use crate::{matlab, numpy, tdms, wpilog, zip};
 
 /// A binary format.
 struct Binary {
@@ -11,10 +11,11 @@ struct Binary {
     read: fn(&[u8]) -> Result<LogData, FormatError>,
 }
 
-const BINARY: [Binary; 4] = [
+const BINARY: [Binary; 5] = [
     Binary { begins: |bytes| bytes.starts_with(numpy::NPY), read: numpy::read_npy },
     Binary { begins: matlab::begins_v5, read: matlab::read_v5 },
     Binary { begins: |bytes| bytes.starts_with(wpilog::WPILOG), read: wpilog::read },
+    Binary { begins: |bytes| bytes.starts_with(tdms::TDMS), read: tdms::read },
     Binary { begins: matlab::begins_v4, read: matlab::read_v4 },
 ];
 

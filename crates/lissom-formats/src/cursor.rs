@@ -12,6 +12,10 @@ impl<'a> Cursor<'a> {
         Self { rest: bytes, big_endian }
     }
 
+    pub(crate) fn big_endian(&self) -> bool {
+        self.big_endian
+    }
+
     /// The bytes that are not yet read.
     pub(crate) fn rest(&self) -> &'a [u8] {
         self.rest

@@ -26,6 +26,8 @@ pub enum Format {
     Npz,
     /// Data log of WPILib.
     WpiLog,
+    /// TDMS file of National Instruments.
+    Tdms,
 }
 
 impl Format {
@@ -39,6 +41,7 @@ impl Format {
             Self::Json => "JSON",
             Self::Matlab => "MATLAB file",
             Self::Npy => "NumPy array",
+            Self::Tdms => "TDMS file",
             Self::WpiLog => "WPILib log",
             Self::Npz => "NumPy archive",
         }
@@ -48,7 +51,7 @@ impl Format {
 /// A format that is recognised and not read, with the way out.
 pub(crate) fn foreign(bytes: &[u8]) -> Option<(&'static str, &'static str)> {
     /// First bytes, name, way out.
-    const KNOWN: [(&[u8], &str, &str); 13] = [
+    const KNOWN: [(&[u8], &str, &str); 12] = [
         (b"%PDF", "a PDF document", NO_TABLE),
         (b"\x89PNG", "a picture", NO_TABLE),
         (b"\xFF\xD8\xFF", "a picture", NO_TABLE),
@@ -57,11 +60,6 @@ pub(crate) fn foreign(bytes: &[u8]) -> Option<(&'static str, &'static str)> {
         (ZIP, "a ZIP archive without NumPy arrays (xlsx files are such archives)", ARCHIVE),
         (b"\x89MCAP0\r\n", "an MCAP file", AS_CSV),
         (b"PAR1", "a Parquet file", "in Python: pandas.read_parquet(FILE).to_csv(\"log.csv\")"),
-        (
-            b"TDSm",
-            "a TDMS file",
-            "in Python: nptdms.TdmsFile(FILE).as_dataframe().to_csv(\"log.csv\")",
-        ),
         (b"SQLite format 3\0", "an SQLite database (ROS 2 bags .db3 are such)", BAG),
         (
             b"#ROSBAG V2.0",

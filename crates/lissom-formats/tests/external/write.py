@@ -1,6 +1,6 @@
 """Writes log files with other people's libraries, and beside each the channels that should be found in it.
 
-    pip install numpy scipy npTDMS pyuff "robotpy-wpiutil<2025"
+    pip install numpy scipy npTDMS pytest pyuff "robotpy-wpiutil<2025"
     python write.py FOLDER
     LISSOM_EXTERNAL=FOLDER cargo test -p lissom-formats --test external -- --nocapture
 """
@@ -12,13 +12,14 @@ import numpy as np
 
 import matlab_files
 import numpy_files
+import tdms_files
 import wpilog_files
 
 SEED = 20261127
 
 
 def main(folder):
-    for module in (numpy_files, matlab_files, wpilog_files):
+    for module in (numpy_files, matlab_files, wpilog_files, tdms_files):
         place = pathlib.Path(folder) / module.__name__
         place.mkdir(parents=True, exist_ok=True)
         count = module.write_all(place, np.random.default_rng(SEED))
