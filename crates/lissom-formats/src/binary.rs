@@ -1,8 +1,8 @@
-//! Binary formats, recognised by their first bytes.
+//! Formats that are no tables of text, recognised by their first bytes.
 
 use crate::format_error::FormatError;
 use crate::log_data::LogData;
-use crate::{matlab, numpy, tdms, wpilog, zip};
+use crate::{matlab, numpy, tdms, uff58, wpilog, zip};
 
 /// A binary format.
 struct Binary {
@@ -11,11 +11,12 @@ struct Binary {
     read: fn(&[u8]) -> Result<LogData, FormatError>,
 }
 
-const BINARY: [Binary; 5] = [
+const BINARY: [Binary; 6] = [
     Binary { begins: |bytes| bytes.starts_with(numpy::NPY), read: numpy::read_npy },
     Binary { begins: matlab::begins_v5, read: matlab::read_v5 },
     Binary { begins: |bytes| bytes.starts_with(wpilog::WPILOG), read: wpilog::read },
     Binary { begins: |bytes| bytes.starts_with(tdms::TDMS), read: tdms::read },
+    Binary { begins: uff58::begins, read: uff58::read },
     Binary { begins: matlab::begins_v4, read: matlab::read_v4 },
 ];
 

@@ -1,5 +1,7 @@
 //! Channels of a file while it is read, and what of the file is left out.
 
+use std::collections::HashSet;
+
 use crate::bytes::MOST_BYTES;
 use crate::format::Format;
 use crate::format_error::FormatError;
@@ -19,12 +21,29 @@ pub(crate) struct LeftOut {
     pub(crate) way_out: &'static str,
 }
 
+/// Names of the parts of a file that are left out for one reason.
+#[derive(Debug, Default)]
+struct Names {
+    first: Vec<String>,
+    all: HashSet<String>,
+}
+
+impl Names {
+    /// The first names, and the number of others.
+    fn listed(&self) -> String {
+        match self.all.len() - self.first.len() {
+            0 => self.first.join(", "),
+            more => format!("{} and {more} more", self.first.join(", ")),
+        }
+    }
+}
+
 /// The channels of a file while it is read.
 #[derive(Debug)]
 pub(crate) struct Collected {
     pub(crate) channels: Vec<Channel>,
     notes: Vec<String>,
-    left_out: Vec<(&'static LeftOut, Vec<String>, usize)>,
+    left_out: Vec<(&'static LeftOut, Names)>,
     /// The bytes that the file may still take in memory.
     budget: u64,
 }
@@ -62,16 +81,16 @@ impl Collected {
 
     /// Leaves out a part of the file.
     pub(crate) fn leave_out(&mut self, name: &str, why: &'static LeftOut) {
-        let place = self.left_out.iter().position(|(reason, ..)| *reason == why);
+        let place = self.left_out.iter().position(|(reason, _)| *reason == why);
         let place = place.unwrap_or_else(|| {
-            self.left_out.push((why, Vec::new(), 0));
+            self.left_out.push((why, Names::default()));
             self.left_out.len() - 1
         });
-        if let Some((_, names, more)) = self.left_out.get_mut(place) {
-            if names.len() < MOST_NAMES {
-                names.push(name.to_owned());
-            } else {
-                *more += 1;
+        let Some((_, names)) = self.left_out.get_mut(place) else { return };
+        if !names.all.contains(name) {
+            names.all.insert(name.to_owned());
+            if names.first.len() < MOST_NAMES {
+                names.first.push(name.to_owned());
             }
         }
     }
@@ -81,22 +100,18 @@ impl Collected {
     /// # Errors
     /// [`FormatError::LeftOut`] if all that the file contains is left out; [`FormatError::NoTable`] if it contains nothing.
     pub(crate) fn finish(mut self, format: Format) -> Result<LogData, FormatError> {
-        let listed = |names: &[String], more: usize| match more {
-            0 => names.join(", "),
-            more => format!("{} and {more} more", names.join(", ")),
-        };
         if self.channels.is_empty() {
-            let Some((why, names, more)) = self.left_out.first() else {
+            let Some((why, names)) = self.left_out.first() else {
                 return Err(match self.notes.into_iter().next() {
                     Some(note) => FormatError::content("no channel can be read", note),
                     None => FormatError::NoTable,
                 });
             };
-            let what = format!("{} ({})", why.what, listed(names, *more));
+            let what = format!("{} ({})", why.what, names.listed());
             return Err(FormatError::LeftOut { what, way_out: why.way_out });
         }
-        for (why, names, more) in &self.left_out {
-            let names = listed(names, *more);
+        for (why, names) in &self.left_out {
+            let names = names.listed();
             self.notes.push(format!("left out: {names} ({}); {}", why.what, why.way_out));
         }
         let Self { channels, notes, .. } = self;

@@ -28,6 +28,8 @@ pub enum Format {
     WpiLog,
     /// TDMS file of National Instruments.
     Tdms,
+    /// Universal file with datasets 58.
+    Uff58,
 }
 
 impl Format {
@@ -42,6 +44,7 @@ impl Format {
             Self::Matlab => "MATLAB file",
             Self::Npy => "NumPy array",
             Self::Tdms => "TDMS file",
+            Self::Uff58 => "universal file",
             Self::WpiLog => "WPILib log",
             Self::Npz => "NumPy archive",
         }

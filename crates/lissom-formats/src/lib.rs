@@ -12,6 +12,7 @@
 //! | NumPy `.npy`, `.npz` | numbers of all types, structured arrays by field |
 //! | WPILib `.wpilog` | entries of numbers and of arrays of numbers, each with its own clock |
 //! | TDMS | channels of numbers and time stamps, linear and polynomial scales; waveforms have their clock |
+//! | UFF, UNV | time responses in datasets 58 and 58b, each with its own clock |
 //!
 //! Text may be UTF-8, UTF-16 or Windows-1252; `.gz` and `.zst` are expanded.
 
@@ -30,6 +31,7 @@ mod numpy;
 mod read;
 mod tdms;
 mod text;
+mod uff58;
 mod wpilog;
 mod zip;
 

@@ -44,10 +44,10 @@ fn a_segment_that_was_not_finished_keeps_its_values() {
     let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/files/interleaved.tdms");
     let mut bytes = std::fs::read(path).unwrap();
     bytes[12..20].fill(0xff);
-    bytes.truncate(bytes.len() - 300);
+    bytes.truncate(bytes.len() - 280);
     let found = read_bytes(bytes).unwrap();
     assert!(found.notes[0].starts_with("segment 1 is not complete"), "{:?}", found.notes);
-    assert!(found.channels[0].values.len() >= 8);
+    assert_eq!(found.channels[0].values.len(), 9);
 }
 
 #[test]

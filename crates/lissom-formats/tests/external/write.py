@@ -13,13 +13,14 @@ import numpy as np
 import matlab_files
 import numpy_files
 import tdms_files
+import uff_files
 import wpilog_files
 
 SEED = 20261127
 
 
 def main(folder):
-    for module in (numpy_files, matlab_files, wpilog_files, tdms_files):
+    for module in (numpy_files, matlab_files, wpilog_files, tdms_files, uff_files):
         place = pathlib.Path(folder) / module.__name__
         place.mkdir(parents=True, exist_ok=True)
         count = module.write_all(place, np.random.default_rng(SEED))
