@@ -11,7 +11,7 @@
 //! | MATLAB v4, v5, v6, v7 | matrices, structs, struct arrays, cells; a structure with time has its clock |
 //! | NumPy `.npy`, `.npz` | numbers of all types, structured arrays by field |
 //! | WPILib `.wpilog` | entries of numbers and of arrays of numbers, each with its own clock |
-//! | TDMS | channels of numbers and time stamps, linear and polynomial scales; waveforms have their clock |
+//! | TDMS | channels of numbers and time stamps, of NI-DAQmx too, linear and polynomial scales; waveforms have their clock |
 //! | UFF, UNV | time responses in datasets 58 and 58b, each with its own clock |
 //!
 //! Text may be UTF-8, UTF-16 or Windows-1252; `.gz` and `.zst` are expanded.

@@ -40,6 +40,18 @@ fn interleaved_raw_data_are_read() {
 }
 
 #[test]
+fn raw_data_of_daqmx_are_read() {
+    let found = sample("daqmx.tdms");
+    assert_eq!(names(&found), ["Group/i", "Group/u", "Group/q"]);
+    let lengths: Vec<usize> = found.channels.iter().map(|c| c.values.len()).collect();
+    assert_eq!(lengths, [16, 16, 12]);
+    assert!((found.channels[0].values[15] + 7.0).abs() < 1e-12);
+    assert!((found.channels[1].values[9] - 60001.0).abs() < 1e-12);
+    assert!((found.channels[2].values[11] - 2.5).abs() < 1e-12);
+    assert!(found.notes[0].starts_with("left out: Group/two (channels of NI-DAQmx"));
+}
+
+#[test]
 fn a_segment_that_was_not_finished_keeps_its_values() {
     let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/files/interleaved.tdms");
     let mut bytes = std::fs::read(path).unwrap();

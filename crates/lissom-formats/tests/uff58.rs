@@ -55,6 +55,6 @@ fn a_dataset_that_is_cut_off_keeps_its_values() {
 
 #[test]
 fn a_table_that_begins_with_minus_one_is_no_universal_file() {
-    let found = read_bytes(b"-1\n58\n2\n3\n4\n".to_vec()).unwrap();
+    let found = read_bytes(b"    -1  5\n    58  6\n    59  7\n    60  8\n".to_vec()).unwrap();
     assert_eq!(found.format, Format::Text);
 }

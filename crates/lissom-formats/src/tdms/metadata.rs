@@ -2,6 +2,7 @@
 
 use std::collections::HashMap;
 
+use super::daqmx::{self, Daqmx};
 use crate::cursor::Cursor;
 use crate::number::{Number, NumberType};
 
@@ -9,7 +10,7 @@ use crate::number::{Number, NumberType};
 const NO_RAW_DATA: u32 = u32::MAX;
 /// The raw data are stored as those before.
 const AS_BEFORE: u32 = 0;
-/// Raw data of NI-DAQmx.
+/// Raw data of NI-DAQmx: of analog channels, and of digital lines.
 const DAQMX: [u32; 2] = [0x1269, 0x126a];
 
 /// Type of a value, as the number in the file.
@@ -75,6 +76,7 @@ pub(super) enum Index {
     None,
     AsBefore,
     New(RawIndex),
+    Daqmx(RawIndex, Daqmx),
 }
 
 /// A text with its length before it.
@@ -113,13 +115,8 @@ pub(super) fn raw_index(cursor: &mut Cursor) -> Option<Index> {
     let _dimension = cursor.u32()?;
     let count = cursor.u64()?;
     if DAQMX.contains(&header) {
-        // The scalers, and the widths of the buffers.
-        let scaler_bytes = if header == DAQMX[0] { 20 } else { 17 };
-        let scalers = cursor.count_u32()?;
-        cursor.take(scalers.checked_mul(scaler_bytes)?)?;
-        let widths = cursor.count_u32()?;
-        cursor.take(widths.checked_mul(4)?)?;
-        return Some(Index::New(RawIndex { of: RawType::Daqmx, count, bytes: 0 }));
+        let daqmx = daqmx::index(cursor, header == DAQMX[1])?;
+        return Some(Index::Daqmx(RawIndex { of: RawType::Daqmx, count, bytes: 0 }, daqmx));
     }
     let of = raw_type(code);
     let bytes = match of.size() {

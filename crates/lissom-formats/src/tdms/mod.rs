@@ -2,6 +2,7 @@
 //!
 //! A channel is `group/channel`. The waveform properties of a channel are its clock.
 
+mod daqmx;
 mod metadata;
 mod raw_data;
 mod scale;
@@ -29,8 +30,8 @@ const HAS_RAW_DATA: u32 = 1 << 3;
 const IS_INTERLEAVED: u32 = 1 << 5;
 const IS_BIG_ENDIAN: u32 = 1 << 6;
 
-const DAQMX: LeftOut = LeftOut {
-    what: "raw data of NI-DAQmx",
+const SCALERS: LeftOut = LeftOut {
+    what: "channels of NI-DAQmx with several scalers",
     way_out: "in Python: nptdms.TdmsFile.read(FILE).as_dataframe().to_csv(\"log.csv\")",
 };
 const COMPLEX: LeftOut = LeftOut {
@@ -46,6 +47,8 @@ struct Object {
     properties: HashMap<String, Property>,
     /// How its raw data are stored, as last stated.
     index: Option<RawIndex>,
+    /// How its raw data are stored, if NI-DAQmx wrote them.
+    daqmx: Option<daqmx::Daqmx>,
     /// Whether the present segment has raw data of it.
     has_data: bool,
     /// Whether it is in the list of objects of the present segment.
@@ -154,6 +157,11 @@ impl Objects {
                 }
                 metadata::Index::New(index) => {
                     object.index = Some(index);
+                    object.has_data = true;
+                }
+                metadata::Index::Daqmx(index, daqmx) => {
+                    object.index = Some(index);
+                    object.daqmx = Some(daqmx);
                     object.has_data = true;
                 }
             }

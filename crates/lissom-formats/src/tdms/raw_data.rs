@@ -1,7 +1,7 @@
 //! Raw data of TDMS segments.
 
 use super::metadata::{RawIndex, RawType};
-use super::{COMPLEX, DAQMX, IS_BIG_ENDIAN, IS_INTERLEAVED, Object, Objects, Segment};
+use super::{COMPLEX, IS_BIG_ENDIAN, IS_INTERLEAVED, Object, Objects, Segment, daqmx};
 use crate::collected::Collected;
 use crate::format_error::FormatError;
 use crate::number::Number;
@@ -32,16 +32,15 @@ pub(super) fn append(
         (index.count > 0).then_some((*place, index))
     };
     let stored: Vec<(usize, RawIndex)> = objects.listed.iter().filter_map(stored).collect();
-    if let Some((place, _)) = stored.iter().find(|(_, index)| index.of == RawType::Daqmx) {
-        let name = objects.all.get(*place).map(Object::name);
-        found.leave_out(&name.unwrap_or_default(), &DAQMX);
-        return Ok(());
+    let big_endian = segment.flags & IS_BIG_ENDIAN != 0;
+    if stored.iter().any(|(_, index)| index.of == RawType::Daqmx) {
+        return daqmx::append(objects, &stored, segment.raw_data, big_endian, found);
     }
     if stored.iter().any(|(_, index)| index.of == RawType::Unknown) {
         found.note(format!("the raw data of segment {number} are of an unknown type: left out"));
         return Ok(());
     }
-    let mut chunks = Chunks { objects, big_endian: segment.flags & IS_BIG_ENDIAN != 0, found };
+    let mut chunks = Chunks { objects, big_endian, found };
     let texts = stored.iter().any(|(_, index)| index.of == RawType::Text);
     if segment.flags & IS_INTERLEAVED != 0 && !texts {
         chunks.interleaved(&stored, segment.raw_data)

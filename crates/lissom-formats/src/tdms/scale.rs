@@ -50,7 +50,11 @@ pub(super) fn of(properties: &HashMap<String, Property>) -> Option<Scales> {
     let mut scales = Vec::new();
     let mut place = count - 1;
     for _ in 0..count {
-        let kind = text(&format!("NI_Scale[{place}]_Scale_Type")).unwrap_or("of a device");
+        // A scale without a type is that of a scaler of NI-DAQmx: its values are the raw values.
+        let Some(kind) = text(&format!("NI_Scale[{place}]_Scale_Type")) else {
+            scales.reverse();
+            return Some(Ok(scales));
+        };
         let key = |end: &str| format!("NI_Scale[{place}]_{kind}_{end}");
         let coefficients = match kind {
             "Linear" => [number(&key("Y_Intercept")), number(&key("Slope"))].into_iter().collect(),

@@ -5,7 +5,8 @@ The latter need pytest, because their module imports it.
 
 import numpy as np
 from nptdms import ChannelObject, GroupObject, RootObject, TdmsFile, TdmsWriter, types
-from nptdms.test import scenarios
+from nptdms.test import scenarios, test_daqmx
+from nptdms.test.util import GeneratedFile
 
 import expected
 
@@ -13,8 +14,11 @@ TYPES = "i1,i2,i4,i8,u1,u2,u4,u8,f4,f8".split(",")
 
 
 def values(channel):
-    """The values of a channel as numbers; None if they are texts or complex."""
-    data = channel[:]
+    """The values of a channel as numbers; None if they are texts or complex, or have several scalers."""
+    scalers = channel.raw_scaler_data
+    if len(scalers) > 1:
+        return None
+    data = channel[:] if "NI_Number_Of_Scales" in channel.properties or not scalers else scalers[0]
     if np.asarray(data).dtype.kind == "M":
         stamps = channel.raw_data
         return (stamps - stamps[0]) / np.timedelta64(1, "s")
@@ -31,7 +35,7 @@ def of_file(path):
                 continue
             properties = channel.properties
             unit = properties.get("unit_string") or properties.get("NI_UnitDescription")
-            if unit is None and channel[:].dtype.kind == "M":
+            if unit is None and channel.dtype is not None and channel.dtype.kind == "M":
                 unit = "s"
             step = properties.get("wf_increment")
             clock = [float(properties.get("wf_start_offset", 0.0)), float(step)] if step else None
@@ -66,6 +70,39 @@ def objects(rng, count):
     yield ChannelObject("other", "scaled", rng.integers(-99, 99, count).astype("i2"), linear)
 
 
+def daqmx_files(folder):
+    """The files with raw data of NI-DAQmx that the tests of npTDMS make."""
+    paths = []
+
+    def load(file):
+        path = folder / f"{name}.tdms"
+        path.write_bytes(contents(file))
+        paths.append(path)
+        raise StopIteration
+
+    original, GeneratedFile.load = GeneratedFile.load, load
+    for name, test in vars(test_daqmx).items():
+        # One has time stamps of a device, which are left out.
+        if not name.startswith("test_") or name == "test_daqmx_metadata_without_daqmx_raw_data":
+            continue
+        try:
+            test()
+        except Exception:
+            pass
+    GeneratedFile.load = original
+    return [path for path in paths if is_read(path)]
+
+
+def is_read(path):
+    """Whether npTDMS reads the file: some of its tests are about errors."""
+    try:
+        of_file(path)
+    except Exception:
+        path.unlink()
+        return False
+    return True
+
+
 def write_all(folder, rng):
     paths = []
     groups = [GroupObject("number's"), GroupObject("other", {"note": 1})]
@@ -83,6 +120,7 @@ def write_all(folder, rng):
         path = folder / f"{scenario.id}.tdms"
         path.write_bytes(contents(file))
         paths.append(path)
+    paths += daqmx_files(folder)
     for path in paths:
         expected.write(path, of_file(path))
     return len(paths)

@@ -1,0 +1,153 @@
+//! Raw data of NI-DAQmx: rows of bytes, one buffer for each device, in which scalers state the places of the channels.
+
+use super::metadata::{RawIndex, RawType};
+use super::{Object, Objects, SCALERS};
+use crate::collected::Collected;
+use crate::cursor::Cursor;
+use crate::format_error::FormatError;
+use crate::number::{Number, NumberType};
+
+/// How the values of a channel are stored.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub(super) struct Daqmx {
+    scalers: Vec<Scaler>,
+    /// Size of a row of each buffer \[byte\].
+    widths: Vec<usize>,
+}
+
+/// The place of a value in a row.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+struct Scaler {
+    /// `None` if values of the type are no numbers.
+    kind: Option<NumberType>,
+    buffer: usize,
+    /// First byte of the value.
+    offset: usize,
+    /// The bit, if the value is a digital line.
+    bit: Option<u32>,
+}
+
+/// Reads how the values of a channel are stored; `None` if that is damaged.
+pub(super) fn index(cursor: &mut Cursor, is_digital: bool) -> Option<Daqmx> {
+    let mut scalers = Vec::new();
+    for _ in 0..cursor.u32()? {
+        let kind = number_type(cursor.u32()?);
+        let buffer = cursor.count_u32()?;
+        let offset = cursor.u32()?;
+        let (offset, bit) = if is_digital {
+            cursor.u8()?;
+            (offset / 8, Some(offset % 8))
+        } else {
+            cursor.u32()?;
+            (offset, None)
+        };
+        let _scale = cursor.u32()?;
+        scalers.push(Scaler { kind, buffer, offset: usize::try_from(offset).ok()?, bit });
+    }
+    let mut widths = Vec::new();
+    for _ in 0..cursor.u32()? {
+        widths.push(cursor.count_u32()?);
+    }
+    Some(Daqmx { scalers, widths })
+}
+
+fn number_type(code: u32) -> Option<NumberType> {
+    Some(match code {
+        0 => NumberType::U8,
+        1 => NumberType::I8,
+        2 => NumberType::U16,
+        3 => NumberType::I16,
+        4 => NumberType::U32,
+        5 => NumberType::I32,
+        6 => NumberType::U64,
+        7 => NumberType::I64,
+        8 => NumberType::F32,
+        9 => NumberType::F64,
+        _ => return None,
+    })
+}
+
+/// A channel of a segment.
+struct Place {
+    object: usize,
+    count: usize,
+    scaler: Scaler,
+    kind: NumberType,
+}
+
+/// Appends the values of a segment.
+pub(super) fn append(
+    objects: &mut Objects,
+    stored: &[(usize, RawIndex)],
+    data: &[u8],
+    big_endian: bool,
+    found: &mut Collected,
+) -> Result<(), FormatError> {
+    let mut widths: Vec<usize> = Vec::new();
+    let mut rows: Vec<usize> = Vec::new();
+    let mut places = Vec::new();
+    for (object, index) in stored {
+        let Some(of) = objects.all.get(*object) else { continue };
+        let (RawType::Daqmx, Some(daqmx)) = (index.of, &of.daqmx) else { continue };
+        if widths.is_empty() {
+            widths.clone_from(&daqmx.widths);
+            rows = vec![0; widths.len()];
+        }
+        let count = usize::try_from(index.count).unwrap_or(usize::MAX);
+        for scaler in &daqmx.scalers {
+            if let Some(rows) = rows.get_mut(scaler.buffer) {
+                *rows = count.max(*rows);
+            }
+        }
+        match daqmx.scalers[..] {
+            [scaler @ Scaler { kind: Some(kind), .. }] => {
+                places.push(Place { object: *object, count, scaler, kind });
+            }
+            _ => found.leave_out(&of.name(), &SCALERS),
+        }
+    }
+    let mut data = data;
+    while !data.is_empty() {
+        let before = data.len();
+        for (buffer, (width, rows)) in widths.iter().zip(&rows).enumerate() {
+            let (bytes, rest) = data.split_at(width.saturating_mul(*rows).min(data.len()));
+            data = rest;
+            if !bytes.is_empty() {
+                for place in places.iter().filter(|place| place.scaler.buffer == buffer) {
+                    let Some(object) = objects.all.get_mut(place.object) else { continue };
+                    values(object, place, bytes, *width, big_endian, found)?;
+                }
+            }
+        }
+        if data.len() == before {
+            return Ok(());
+        }
+    }
+    Ok(())
+}
+
+/// Appends the values of a channel in a buffer.
+fn values(
+    object: &mut Object,
+    place: &Place,
+    bytes: &[u8],
+    width: usize,
+    big_endian: bool,
+    found: &mut Collected,
+) -> Result<(), FormatError> {
+    let Scaler { offset, bit, .. } = place.scaler;
+    if offset.saturating_add(place.kind.size()) > width {
+        return Ok(());
+    }
+    let count = place.count.min(bytes.len() / width);
+    found.take_bytes(count.saturating_mul(size_of::<f64>()).max(1))?;
+    let first = object.values.len();
+    let number = Number::new(place.kind, big_endian);
+    number.append(&mut object.values, bytes.get(offset..).unwrap_or_default(), width, count);
+    if let Some(bit) = bit {
+        for value in object.values.iter_mut().skip(first) {
+            *value = f64::from(u8::from(*value as u64 >> bit & 1 == 1));
+        }
+    }
+    Ok(())
+}
