@@ -34,7 +34,13 @@ pub(crate) fn read(bytes: &[u8]) -> Option<Result<LogData, FormatError>> {
     if let Some(format) = of(bytes) {
         return Some((format.read)(bytes));
     }
+    if !bytes.starts_with(zip::ZIP) {
+        return None;
+    }
     // An archive is one of arrays by its entries, not by its first bytes.
-    let entries = bytes.starts_with(zip::ZIP).then(|| zip::entries(bytes))??;
+    let Some(entries) = zip::entries(bytes) else {
+        let reason = "the archive ends before its directory".to_owned();
+        return Some(Err(FormatError::Damaged { reason }));
+    };
     numpy::is_npz(&entries).then(|| numpy::read_npz(bytes, &entries))
 }

@@ -111,7 +111,11 @@ fn a_shape_larger_than_the_file_takes_no_memory() {
 
 #[test]
 fn an_archive_without_arrays_is_named() {
-    let xlsx = b"PK\x03\x04 no directory".to_vec();
-    let error = read_bytes(xlsx).unwrap_err();
+    // The end of a directory without entries.
+    let directory = b"PK\x05\x06\0\0\0\0\0\0\0\0\0\0\0\0\x04\0\0\0\0\0";
+    let empty = [b"PK\x03\x04", &directory[..]].concat();
+    let error = read_bytes(empty).unwrap_err();
     assert!(error.to_string().starts_with("is a ZIP archive without NumPy arrays"), "{error}");
+    let error = read_bytes(b"PK\x03\x04 no directory".to_vec()).unwrap_err();
+    assert!(matches!(error, FormatError::Damaged { .. }), "{error}");
 }

@@ -58,7 +58,7 @@ fn a_segment_that_was_not_finished_keeps_its_values() {
     bytes[12..20].fill(0xff);
     bytes.truncate(bytes.len() - 280);
     let found = read_bytes(bytes).unwrap();
-    assert!(found.notes[0].starts_with("segment 1 is not complete"), "{:?}", found.notes);
+    assert!(found.notes[0].starts_with("segment 1 was not finished"), "{:?}", found.notes);
     assert_eq!(found.channels[0].values.len(), 9);
 }
 

@@ -92,7 +92,8 @@ pub(crate) fn read(bytes: &[u8]) -> Result<LogData, FormatError> {
             break;
         };
         if !segment.is_complete {
-            found.note(format!("segment {number} is not complete: its last values are missing"));
+            found
+                .note(format!("segment {number} was not finished: its last values may be missing"));
         }
         if objects.update(&segment).is_none() {
             found.note(format!(
