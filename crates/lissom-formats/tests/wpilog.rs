@@ -52,7 +52,9 @@ fn a_log_of_the_library_has_its_entries() {
     assert_eq!(found.channels[0].unit.as_deref(), Some("s"));
     assert_eq!(found.channels[1].unit.as_deref(), Some("A"));
     assert_eq!(found.channels[3].clock, Clock::Channel(2));
-    assert!(found.notes[0].starts_with("left out: /pose (structs"), "{:?}", found.notes);
+    let pose = found.channels.iter().find(|c| c.name == "/pose/at[2]/y").unwrap();
+    assert_eq!(pose.values.len(), 12);
+    assert!(found.notes[0].starts_with("left out: /unknown (entries of"), "{:?}", found.notes);
 }
 
 #[test]

@@ -3,6 +3,7 @@
 Later versions of robotpy-wpiutil cannot write a log without a robot program: robotpy-wpiutil < 2025 can.
 """
 
+import struct
 import time
 
 import numpy as np
@@ -32,6 +33,12 @@ def entry(name, stamps, columns, unit, is_array):
     return found + [expected.channel(label, c, unit, time_name) for label, c in zip(labels, columns)]
 
 
+def structs(name, stamps, rows, labels):
+    columns = [[row[k] if k < len(row) else np.nan for row in rows] for k in range(len(labels))]
+    found = [expected.channel(f"{name}/time", [stamp / 1e6 for stamp in stamps], "s")]
+    return found + [expected.channel(label, c, None, f"{name}/time") for label, c in zip(labels, columns)]
+
+
 def write_log(path, rng, count, restart, extra):
     folder = path.with_suffix(".new")
     folder.mkdir()
@@ -45,7 +52,12 @@ def write_log(path, rng, count, restart, extra):
     for kind in ARRAYS:
         entries.append((kind, True, f"/arrays/{kind}", log.start(f"/arrays/{kind}", kind, "", 1), None, [], []))
     words = log.start("/words", "string", "", 1)
-    pose = log.start("/pose", "struct:Pose2d", "", 1)
+    log.addSchema("struct:Point", "structschema", "double x;double y", 1)
+    log.addSchema("struct:Pose", "structschema", "enum {off=0, on=1} int8 mode;Point at[2];char name[3];float angle", 1)
+    pose = log.start("/pose", "struct:Pose", "", 1)
+    points = log.start("/points", "struct:Point[]", "", 1)
+    unknown = log.start("/unknown", "struct:Unknown", "", 1)
+    poses, clouds, stamps_of_structs = [], [], []
     stamp = 1_000
     for row in range(count):
         stamp += int(rng.integers(1, 300_000))
@@ -67,7 +79,15 @@ def write_log(path, rng, count, restart, extra):
             stamps.append(stamp + place)
             rows.append(values)
         log.appendString(words, f"row {row}", stamp)
-        log.appendRaw(pose, bytes(24), stamp)
+        at = rng.normal(size=4)
+        angle = float(np.float32(rng.normal()))
+        log.appendRaw(pose, struct.pack("<b4d3sf", row % 2, *at, b"abc", angle), stamp)
+        poses.append([row % 2, *at, angle])
+        cloud = list(rng.normal(size=2 * int(rng.integers(1, 4))))
+        log.appendRaw(points, struct.pack(f"<{len(cloud)}d", *cloud), stamp)
+        clouds.append(cloud)
+        stamps_of_structs.append(stamp)
+        log.appendRaw(unknown, bytes(24), stamp)
     log.flush()
     time.sleep(PAUSE_S)
     log.stop()
@@ -81,7 +101,12 @@ def write_log(path, rng, count, restart, extra):
         columns = [[row[k] if k < len(row) else np.nan for row in rows] for k in range(width)]
         if columns:
             found += entry(name, stamps, columns, unit, is_array)
-    expected.write(path, found, "/pose (structs")
+    leaves = ["mode", "at[1]/x", "at[1]/y", "at[2]/x", "at[2]/y", "angle"]
+    found += structs("/pose", stamps_of_structs, poses, [f"/pose/{leaf}" for leaf in leaves])
+    width = max(len(row) for row in clouds) // 2
+    labels = [f"/points[{k + 1}]/{axis}" for k in range(width) for axis in "xy"]
+    found += structs("/points", stamps_of_structs, clouds, labels)
+    expected.write(path, found, "/unknown (entries of types")
 
 
 def write_all(folder, rng):

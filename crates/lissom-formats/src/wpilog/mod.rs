@@ -1,17 +1,22 @@
 //! Data logs of WPILib (`.wpilog`): records of many entries, each with its own time stamp.
 //!
-//! Every entry of numbers has a time channel `name/time`. The places of arrays are `name[1]`, `name[2]`, ...
+//! Every entry of numbers has a time channel `name/time`. The places of arrays are `name[1]`, `name[2]`, ..., the fields of
+//! structs `name/field`.
+
+mod layout;
 
 use std::collections::HashMap;
 
 use serde_json::Value;
+
+use layout::{Layout, Schemas};
 
 use crate::collected::{Collected, LeftOut};
 use crate::cursor::Cursor;
 use crate::format::Format;
 use crate::format_error::FormatError;
 use crate::log_data::{Channel, Clock, LogData};
-use crate::number::{Number, NumberType};
+use crate::number::Number;
 
 /// First bytes of a log.
 pub(crate) const WPILOG: &[u8] = b"WPILOG";
@@ -25,7 +30,7 @@ const FINISH: u8 = 1;
 const SET_METADATA: u8 = 2;
 
 const STRUCTS: LeftOut = LeftOut {
-    what: "structs and other entries that are no numbers",
+    what: "entries of types that are not known",
     way_out: "export them as CSV with AdvantageScope",
 };
 const LONG: LeftOut =
@@ -39,16 +44,20 @@ const UNFIT: LeftOut = LeftOut {
 struct Entry {
     name: String,
     unit: Option<String>,
-    of: EntryType,
+    /// Name of its type.
+    of: String,
+    layout: Option<Layout>,
     times_s: Vec<f64>,
-    /// The values of each place; one place if it is no array.
+    /// The values of each number of each item.
     places: Vec<Vec<f64>>,
 }
 
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
-struct EntryType {
-    number: NumberType,
-    is_array: bool,
+/// What the number of an entry stands for.
+enum Open {
+    /// The entry at this place.
+    Entry(usize),
+    /// The schema of the struct of this name.
+    Schema(String),
 }
 
 /// A record of a log.
@@ -63,9 +72,10 @@ struct Record<'a> {
 struct Entries {
     all: Vec<Entry>,
     /// The entry of a name and a type.
-    places: HashMap<(String, EntryType), usize>,
-    /// The entry that a number stands for, until the number is used for another.
-    open: HashMap<u32, usize>,
+    places: HashMap<(String, String), usize>,
+    /// What a number stands for, until it is used for another entry.
+    open: HashMap<u32, Open>,
+    schemas: Schemas,
 }
 
 /// Reads a log.
@@ -124,27 +134,9 @@ fn unit(metadata: &str) -> Option<String> {
     Some(unit.to_owned()).filter(|unit| !unit.is_empty())
 }
 
-impl EntryType {
-    /// The type of this name; `None` if it has no numbers.
-    fn of(name: &str) -> Option<Self> {
-        let (number, is_array) = match name.strip_suffix("[]") {
-            Some(number) => (number, true),
-            None => (name, false),
-        };
-        let number = match number {
-            "boolean" => NumberType::U8,
-            "int64" => NumberType::I64,
-            "float" => NumberType::F32,
-            "double" => NumberType::F64,
-            _ => return None,
-        };
-        Some(Self { number, is_array })
-    }
-}
-
 /// Whether entries of this type are texts, or describe other types.
 fn is_text(name: &str) -> bool {
-    matches!(name, "string" | "string[]" | "json" | "structschema" | "photonstructschema")
+    matches!(name, "string" | "string[]" | "json" | "photonstructschema")
         || name == "proto:FileDescriptorProto"
 }
 
@@ -165,7 +157,10 @@ impl Entries {
             }
             SET_METADATA => {
                 let unit = unit(&text(&mut cursor)?);
-                let entry = self.open.get(&number).and_then(|place| self.all.get_mut(*place));
+                let entry = match self.open.get(&number) {
+                    Some(Open::Entry(place)) => self.all.get_mut(*place),
+                    _ => None,
+                };
                 if let Some(entry) = entry {
                     entry.unit = unit.or(entry.unit.take());
                 }
@@ -185,64 +180,101 @@ impl Entries {
         found: &mut Collected,
     ) {
         self.open.remove(&number);
-        let Some(kind) = EntryType::of(of) else {
+        if of == "structschema" {
+            let name = name.rsplit("struct:").next().unwrap_or_default().to_owned();
+            self.open.insert(number, Open::Schema(name));
+            return;
+        }
+        let is_struct = of.starts_with("struct:");
+        let layout = layout::of(of, &self.schemas);
+        if layout.is_none() && !is_struct {
             if !is_text(of) {
                 found.leave_out(&name, &STRUCTS);
             }
             return;
-        };
-        let place = *self.places.entry((name.clone(), kind)).or_insert(self.all.len());
+        }
+        let key = (name, of.to_owned());
+        let place = *self.places.entry(key.clone()).or_insert(self.all.len());
         if let Some(entry) = self.all.get_mut(place) {
             entry.unit = unit.or(entry.unit.take());
         } else {
-            let (times_s, places) = (Vec::new(), Vec::new());
-            self.all.push(Entry { name, unit, of: kind, times_s, places });
+            let ((name, of), times_s, places) = (key, Vec::new(), Vec::new());
+            self.all.push(Entry { name, unit, of, layout, times_s, places });
         }
-        self.open.insert(number, place);
+        self.open.insert(number, Open::Entry(place));
     }
 
     /// Appends the values of a record.
     fn append(&mut self, record: &Record, found: &mut Collected) -> Result<(), FormatError> {
-        let entry = self.open.get(&record.entry).and_then(|place| self.all.get_mut(*place));
-        let Some(entry) = entry else { return Ok(()) };
-        let size = entry.of.number.size();
-        let count = record.payload.len() / size;
-        if count * size != record.payload.len() || (!entry.of.is_array && count != 1) {
-            found.leave_out(&entry.name, &UNFIT);
+        let place = match self.open.get(&record.entry) {
+            Some(Open::Entry(place)) => *place,
+            Some(Open::Schema(name)) => {
+                let schema = String::from_utf8_lossy(record.payload).into_owned();
+                self.schemas.insert(name.clone(), schema);
+                return Ok(());
+            }
+            None => return Ok(()),
+        };
+        let Some(entry) = self.all.get_mut(place) else { return Ok(()) };
+        if entry.layout.is_none() {
+            // The schema is in the log before the first record, or not at all.
+            entry.layout = layout::of(&entry.of, &self.schemas);
+        }
+        if entry.layout.is_none() {
+            self.open.remove(&record.entry);
+            found.leave_out(&entry.name, &STRUCTS);
             return Ok(());
         }
-        if count > MOST_PLACES {
-            found.leave_out(&entry.name, &LONG);
-            return Ok(());
-        }
-        let rows = entry.times_s.len();
-        let new = count.saturating_sub(entry.places.len());
-        found.take_bytes((new * rows + entry.places.len() + new + 1) * size_of::<f64>())?;
-        entry.places.extend((0..new).map(|_| vec![f64::NAN; rows]));
-        let number = Number::new(entry.of.number, false);
-        for (k, place) in entry.places.iter_mut().enumerate() {
-            number.append(place, record.payload.get(k * size..).unwrap_or_default(), size, 1);
-            // An array that is shorter than others has no value here.
-            place.resize(rows + 1, f64::NAN);
-        }
-        entry.times_s.push(record.stamp as f64 / STAMPS_PER_S);
-        Ok(())
+        entry.append(record, found)
     }
 }
 
 impl Entry {
+    /// Appends the values of a record.
+    fn append(&mut self, record: &Record, found: &mut Collected) -> Result<(), FormatError> {
+        let Some(layout) = &self.layout else { return Ok(()) };
+        let items = record.payload.len() / layout.size;
+        if items * layout.size != record.payload.len() || (!layout.is_array && items != 1) {
+            found.leave_out(&self.name, &UNFIT);
+            return Ok(());
+        }
+        let count = items.saturating_mul(layout.leaves.len());
+        if count > MOST_PLACES {
+            found.leave_out(&self.name, &LONG);
+            return Ok(());
+        }
+        let rows = self.times_s.len();
+        let new = count.saturating_sub(self.places.len());
+        found.take_bytes((new * rows + self.places.len() + new + 1) * size_of::<f64>())?;
+        self.places.extend((0..new).map(|_| vec![f64::NAN; rows]));
+        let items = (0..self.places.len()).step_by(layout.leaves.len());
+        let leaves =
+            items.zip(0..).flat_map(|(_, item)| layout.leaves.iter().map(move |l| (item, l)));
+        for (place, (item, leaf)) in self.places.iter_mut().zip(leaves) {
+            let bytes = record.payload.get(item * layout.size + leaf.offset..).unwrap_or_default();
+            let size = leaf.number.size();
+            Number::new(leaf.number, false).append(place, bytes, size, 1);
+            // An array that is shorter than others has no value here.
+            place.resize(rows + 1, f64::NAN);
+        }
+        self.times_s.push(record.stamp as f64 / STAMPS_PER_S);
+        Ok(())
+    }
+
     /// Appends its channels, with their clock before them.
     fn collect(self, found: &mut Collected) {
-        if self.places.is_empty() {
-            return;
-        }
+        let Some(layout) = self.layout.filter(|_| !self.places.is_empty()) else { return };
         let clock = found.channels.len();
         let mut time = Channel::of(format!("{}/time", self.name), self.times_s);
         time.unit = Some("s".to_owned());
         found.channels.push(time);
+        let leaves = layout.leaves.len();
         for (k, values) in self.places.into_iter().enumerate() {
-            let place = if self.of.is_array { format!("[{}]", k + 1) } else { String::new() };
-            let mut channel = Channel::of(format!("{}{place}", self.name), values);
+            let place =
+                if layout.is_array { format!("[{}]", k / leaves + 1) } else { String::new() };
+            let path = layout.leaves.get(k % leaves).map_or("", |leaf| &leaf.path);
+            let slash = if path.is_empty() { "" } else { "/" };
+            let mut channel = Channel::of(format!("{}{place}{slash}{path}", self.name), values);
             channel.unit.clone_from(&self.unit);
             channel.clock = Clock::Channel(clock);
             found.channels.push(channel);
