@@ -15,6 +15,38 @@ pub struct LogData {
     pub notes: Vec<String>,
 }
 
+impl LogData {
+    /// The same with a channel `time` \[s\] for each even clock, which its channels then have as their time stamps.
+    #[must_use]
+    pub fn with_time_stamps(mut self) -> Self {
+        let mut clocks: Vec<(f64, f64, usize)> = Vec::new();
+        for channel in &self.channels {
+            if let Clock::Even { start_s, step_s } = channel.clock {
+                let clock = (start_s, step_s, channel.values.len());
+                if !clocks.contains(&clock) {
+                    clocks.push(clock);
+                }
+            }
+        }
+        let first = self.channels.len();
+        for channel in &mut self.channels {
+            if let Clock::Even { start_s, step_s } = channel.clock {
+                let clock = (start_s, step_s, channel.values.len());
+                let place = clocks.iter().position(|known| *known == clock);
+                channel.clock = place.map_or(channel.clock, |k| Clock::Channel(first + k));
+            }
+        }
+        let only = clocks.len() == 1;
+        for (k, (start_s, step_s, values)) in clocks.into_iter().enumerate() {
+            let name = if only { "time".to_owned() } else { format!("time[{}]", k + 1) };
+            let values = (0..values).map(|i| start_s + step_s * i as f64).collect();
+            let unit = Some("s".to_owned());
+            self.channels.push(Channel { unit, ..Channel::of(name, values) });
+        }
+        self
+    }
+}
+
 /// A channel of a log file.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Channel {

@@ -1,5 +1,7 @@
 //! A log, described before anything is known about it.
 
+use std::fmt::Write as _;
+
 use lissom_io::inspect::{
     CampaignDraft, Description, DraftError, InspectedChannel, Inspection, Relation, UnitSource,
 };
@@ -37,7 +39,9 @@ pub(crate) fn print(log: &Inspection) {
     if !remarks.is_empty() {
         line("");
         line("remarks");
-        remarks.iter().for_each(|text| item(text));
+        for text in &remarks {
+            item(text);
+        }
     }
     line("");
     line("probably");
@@ -72,15 +76,15 @@ fn clock(log: &Inspection) {
     );
     let [least, most] = clock.steps;
     if most - least > 0.01 * clock.step {
-        text.push_str(&format!("; steps from {} to {}", number(least), number(most)));
+        let _ = write!(text, "; steps from {} to {}", number(least), number(most));
     }
     for (count, what) in [(clock.gaps, "gap"), (clock.repeated, "repeated stamp")] {
         if count > 0 {
-            text.push_str(&format!("; {}", counted(count, what)));
+            let _ = write!(text, "; {}", counted(count, what));
         }
     }
     if clock.back > 0 {
-        text.push_str(&format!("; time goes back {}", counted(clock.back, "time")));
+        let _ = write!(text, "; time goes back {}", counted(clock.back, "time"));
     }
     line(&text);
 }

@@ -123,7 +123,12 @@ impl CampaignDraft {
         if !missing.is_empty() {
             return Err(DraftError::incomplete(self.file.clone(), missing));
         }
-        Ok(self.lines.iter().map(|line| format!("{}\n", line.text)).collect())
+        let mut text = String::new();
+        for line in &self.lines {
+            text.push_str(&line.text);
+            text.push('\n');
+        }
+        Ok(text)
     }
 
     /// What was taken from the log, each with the reason.
@@ -308,28 +313,24 @@ impl<'a> Signals<'a> {
     }
 
     fn command(&self) -> Result<Line, DraftError> {
-        let (key, role, picked) = match &self.said.command {
-            Some((key, choice)) => {
-                let role = match key {
-                    CommandKey::Current => Role::Current,
-                    CommandKey::Voltage => Role::Voltage,
-                    CommandKey::Command => Role::Torque,
-                };
-                (*key, role, Ok(self.named(choice)?))
-            }
-            None => {
-                let roles = [
-                    (CommandKey::Current, Role::Current),
-                    (CommandKey::Command, Role::Torque),
-                    (CommandKey::Voltage, Role::Voltage),
-                ];
-                let known = |role: &Role| {
-                    self.log.roles.of(*role).is_some() || self.log.roles.several(*role).is_some()
-                };
-                let (key, role) =
-                    roles.into_iter().find(|(_, role)| known(role)).unwrap_or(roles[0]);
-                (key, role, self.pick(role, None)?)
-            }
+        let (key, role, picked) = if let Some((key, choice)) = &self.said.command {
+            let role = match key {
+                CommandKey::Current => Role::Current,
+                CommandKey::Voltage => Role::Voltage,
+                CommandKey::Command => Role::Torque,
+            };
+            (*key, role, Ok(self.named(choice)?))
+        } else {
+            let roles = [
+                (CommandKey::Current, Role::Current),
+                (CommandKey::Command, Role::Torque),
+                (CommandKey::Voltage, Role::Voltage),
+            ];
+            let known = |role: &Role| {
+                self.log.roles.of(*role).is_some() || self.log.roles.several(*role).is_some()
+            };
+            let (key, role) = roles.into_iter().find(|(_, role)| known(role)).unwrap_or(roles[0]);
+            (key, role, self.pick(role, None)?)
         };
         Ok(match picked {
             Ok(picked) => {

@@ -80,13 +80,42 @@ pub enum DraftError {
     },
 }
 
+/// What is missing, with the names of all channels once.
 fn joined(file: &str, missing: &[DraftError]) -> String {
     let before = format!("{file}: ");
-    let bare = |error: &DraftError| {
+    let mut parts = Vec::new();
+    let roles = missing.iter().filter_map(|error| match error {
+        DraftError::NoRole { role, .. } => Some(role.name()),
+        _ => None,
+    });
+    let roles: Vec<&str> = roles.collect();
+    if let Some(DraftError::NoRole { names, .. }) =
+        missing.iter().find(|e| matches!(e, DraftError::NoRole { .. }))
+    {
+        parts.push(format!(
+            "no channel is clearly the {}; the channels are {}",
+            roles.join(", the "),
+            list(names)
+        ));
+    }
+    let units = missing.iter().filter_map(|error| match error {
+        DraftError::NoUnit { role, name, stated, .. } => {
+            Some(format!("{} \"{name}\"{}", role.name(), not_known(stated.as_deref())))
+        }
+        _ => None,
+    });
+    let units: Vec<String> = units.collect();
+    if !units.is_empty() {
+        parts.push(format!("the unit is not stated of the {}", units.join(", the ")));
+    }
+    let others = missing
+        .iter()
+        .filter(|e| !matches!(e, DraftError::NoRole { .. } | DraftError::NoUnit { .. }));
+    parts.extend(others.map(|error| {
         let text = error.to_string();
         text.strip_prefix(&before).map_or(text.clone(), str::to_owned)
-    };
-    missing.iter().map(bare).collect::<Vec<_>>().join("; ")
+    }));
+    parts.join("; ")
 }
 
 /// Channels that are named in a message at most.

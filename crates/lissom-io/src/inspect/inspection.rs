@@ -82,7 +82,7 @@ impl InspectedChannel {
 pub fn inspect(path: &Path) -> Result<Inspection, Error> {
     let file = path.display().to_string();
     let data = read(path).map_err(|error| LogError::of_format(file, error))?;
-    Ok(of_data(path, data))
+    Ok(of_data(path, data.with_time_stamps()))
 }
 
 fn of_data(path: &Path, data: LogData) -> Inspection {

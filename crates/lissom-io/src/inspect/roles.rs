@@ -220,17 +220,16 @@ fn score(role: Role, channel: &InspectedChannel) -> Option<(i32, String)> {
     }
     let mut points = 0;
     let mut why = Vec::new();
-    if let Some(unit) = &channel.unit {
-        if let Some((_, dimension)) = unit.known {
-            if !role.fits(dimension, &unit.text)
-                && !(role == Role::Tip && dimension == Dimension::NUMBER)
-            {
-                return None;
-            }
-            if role.fits(dimension, &unit.text) {
-                points += UNIT;
-                why.push(format!("its unit is {}", unit.text));
-            }
+    if let Some(unit) = &channel.unit
+        && let Some((_, dimension)) = unit.known
+    {
+        let fits = role.fits(dimension, &unit.text);
+        if !fits && (role != Role::Tip || dimension != Dimension::NUMBER) {
+            return None;
+        }
+        if fits {
+            points += UNIT;
+            why.push(format!("its unit is {}", unit.text));
         }
     }
     if let Some(word) = has(role.words()) {
@@ -272,7 +271,13 @@ pub(super) fn looks_like_time(channels: &[InspectedChannel], data: &LogData) -> 
     if let Some(channel) = own {
         return Some(Guess { channel, why: "the format says so".to_owned() });
     }
-    let unnamed = channels.iter().all(|c| c.name.is_empty());
+    // Columns of an array are called `data[1]`, `data[2]` and so on.
+    let array =
+        |name: &str| name.split_once('[').map_or(String::new(), |(array, _)| array.to_owned());
+    let first_array = channels.first().map_or(String::new(), |c| array(&c.name));
+    let unnamed = channels
+        .iter()
+        .all(|c| c.name.is_empty() || c.name.ends_with(']') && array(&c.name) == first_array);
     let scored = (0..channels.len()).filter(grows).filter_map(|k| {
         let channel = &channels[k];
         let unit = channel.dimension() == Some(Dimension::TIME);

@@ -11,26 +11,26 @@ use super::log_error::LogError;
 use super::one_clock::{Series, on_one_clock};
 use crate::nearest::nearest;
 
-/// Reads a log that the reader of plain text could not read, with the error `first`. That error is returned if the file
-/// is plain text after all.
+/// Reads a log that the reader of plain text could not read, with the error `first` if it tried. That error is returned
+/// if the file is plain text after all.
 pub(super) fn read(
     path: &Path,
     time: Option<&ColumnRef>,
     columns: &[LogColumn],
     options: &LogOptions,
-    first: LogError,
+    first: Option<LogError>,
 ) -> Result<Log, LogError> {
     let file = path.display().to_string();
-    let data = match lissom_formats::read(path) {
-        Ok(data) => data,
-        Err(
-            source @ (FormatError::Foreign { .. }
-            | FormatError::Damaged { .. }
-            | FormatError::TooLarge { .. }
-            | FormatError::Json { .. }),
-        ) => return Err(LogError::of_format(file, source)),
-        Err(_) => return Err(first),
+    let (data, first) = match (lissom_formats::read(path), first) {
+        (Ok(data), first) => (data.with_time_stamps(), first),
+        // What is wrong with the text is known better from its first reading.
+        (
+            Err(FormatError::NoTable | FormatError::NotText { .. } | FormatError::Content { .. }),
+            Some(first),
+        ) => return Err(first),
+        (Err(source), _) => return Err(LogError::of_format(file, source)),
     };
+    let first = first.unwrap_or_else(|| LogError::NoCommonTime { file: file.clone() });
     of_data(&file, &data, time, columns, options, first)
 }
 

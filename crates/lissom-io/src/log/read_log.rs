@@ -30,12 +30,11 @@ pub fn read_log(
                 .fill_buf()
                 .map_err(|source| LogError::Open { file: name.clone(), source })?;
             if lissom_formats::is_no_plain_table(begins) {
-                let no_text = LogError::NotText { file: name, row: 1 };
-                return other_format::read(path, time, columns, options, no_text);
+                return other_format::read(path, time, columns, options, None);
             }
             match read_log_from(reader, &name, time, columns, options) {
                 Err(error) if error.may_be_another_format() => {
-                    other_format::read(path, time, columns, options, error)
+                    other_format::read(path, time, columns, options, Some(error))
                 }
                 Ok(log) if log.columns.first().is_some_and(|c| c.len() <= FEW_ROWS) => {
                     // Or one row for each signal.

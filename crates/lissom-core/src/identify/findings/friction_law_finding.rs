@@ -140,9 +140,8 @@ impl fmt::Display for FrictionLawFinding {
                 if let Some(BetterLaw { residual_ratio, standard_errors }) = better {
                     write!(
                         f,
-                        "With this law the residual torque is {:.2} times as large, and slip phases left out of the fit are \
-                         described better by {standard_errors:.0} standard errors or more. ",
-                        residual_ratio
+                        "With this law the residual torque is {residual_ratio:.2} times as large, and slip phases left out of the fit are \
+                         described better by {standard_errors:.0} standard errors or more. "
                     )?;
                 }
                 f.write_str(if replayed_without {
