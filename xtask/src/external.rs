@@ -1,6 +1,7 @@
 //! The experiments of the virtual rig with independent simulators: `xtask/external/compare.py` in a Python
-//! environment under `target`, with the versions that `requirements.txt` pins. Then MuJoCo's own
-//! identification of the same logs (`sysid.py`).
+//! environment under `target`, with the versions that `requirements.txt` pins. Then exports loaded by the programs that they
+//! are for (`exports.py`), log files of other libraries read, and MuJoCo's own identification of the same logs
+//! (`sysid.py`).
 
 use std::{
     env, fs,
@@ -79,9 +80,25 @@ pub(crate) fn compare(root: &Path) -> Result<(), Failure> {
     run("its estimates compared with the truth", &mut campaign("judge"))?;
     let build = ["build", "--release", "--package", "lissom-cli"];
     run("build of the command", &mut cargo(root, &build))?;
+    loaded_elsewhere(root, &python, &folder)?;
     let mut identify = python.script("sysid.py");
     identify.arg("compare").arg(&folder).arg(command_path(root));
     run("MuJoCo's own identification compared with lissom", &mut identify)
+}
+
+/// Lets other programs load what lissom exports, and lissom read the log files that other libraries write.
+fn loaded_elsewhere(root: &Path, python: &Python, folder: &Path) -> Result<(), Failure> {
+    let (demo, exports, logs) = (folder.join("demo"), folder.join("exports"), folder.join("logs"));
+    let command = command_path(root);
+    run("demo", Command::new(&command).arg("demo").arg("--out").arg(&demo))?;
+    let mut load = python.script("exports.py");
+    load.arg(&command).arg(demo.join("result.json")).arg(&exports);
+    run("exports loaded by other programs", &mut load)?;
+    let mut write = Command::new(&python.program);
+    write.arg(root.join("crates/lissom-formats/tests/external/write.py")).arg(&logs);
+    run("log files of other libraries", &mut write)?;
+    let test = ["test", "--release", "--package", "lissom-formats", "--test", "external"];
+    run("these log files read", cargo(root, &test).env("LISSOM_EXTERNAL", &logs))
 }
 
 /// Measures how near the comparisons come to their thresholds: a copy of the sources records it for 30 simulated

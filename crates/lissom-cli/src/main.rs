@@ -16,9 +16,9 @@ use clap::Parser as _;
 
 use crate::args::command_line::{Cli, Command};
 use crate::commands::{
-    compare_command, completions_command, demo, equivalent, identify_command, init_command,
-    inspect_command, man_command, model_command, payload_command, plan, report_figures, rig,
-    thresholds_command, validate_command,
+    compare_command, completions_command, demo, equivalent, export_command, identify_command,
+    init_command, inspect_command, man_command, model_command, payload_command, plan,
+    report_figures, rig, thresholds_command, validate_command,
 };
 use crate::views::printer;
 
@@ -29,6 +29,7 @@ fn main() -> ExitCode {
         Command::Identify(args) => identify_command::run(&args),
         Command::Validate(args) => validate_command::run(&args),
         Command::Compare(args) => compare_command::run(&args),
+        Command::Export(args) => export_command::run(&args),
         Command::Equivalent(args) => equivalent::run(&args),
         Command::Payload(args) => payload_command::run(&args),
         Command::Model(args) => model_command::run(&args),

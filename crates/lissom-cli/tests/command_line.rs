@@ -6,7 +6,8 @@ use std::process::Command;
 /// Lines of a screen that help may take.
 const SCREEN: usize = 60;
 
-const SUBCOMMANDS: [&str; 15] = [
+const SUBCOMMANDS: [&str; 16] = [
+    "export",
     "inspect",
     "init",
     "identify",

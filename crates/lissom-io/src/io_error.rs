@@ -6,6 +6,7 @@ use thiserror::Error;
 use crate::arm_file::arm_error::ArmError;
 use crate::campaign::campaign_error::CampaignError;
 use crate::config::ConfigError;
+use crate::export::ExportError;
 use crate::inspect::DraftError;
 use crate::log::LogError;
 use crate::model::frequency_file::FrequencyError;
@@ -52,6 +53,9 @@ pub enum Error {
     /// No campaign can be made of a log and of what the user says about it.
     #[error(transparent)]
     Draft(#[from] DraftError),
+    /// A model cannot be exported.
+    #[error(transparent)]
+    Export(#[from] ExportError),
     /// A file cannot be written.
     #[error(transparent)]
     Write(#[from] WriteError),
@@ -71,6 +75,7 @@ impl Error {
             Self::Responses(error) => error.hint(),
             Self::Result(error) => error.hint(),
             Self::Draft(error) => error.hint(),
+            Self::Export(error) => error.hint(),
             Self::Write(error) => error.hint(),
             // Readers do not create such runs: see [`LogError`] and [`CampaignError`].
             Self::Record(_) => None,

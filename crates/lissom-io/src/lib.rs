@@ -11,6 +11,7 @@
 //! - [`PlannedFile`] is a plan as JSON, [`RigFile`] describes a virtual campaign, [`DemoFile`] and
 //!   [`FiguresFile`] are estimates compared with known values.
 //! - [`inspect`](mod@inspect) describes a log of which nothing is known yet, and makes a `campaign.toml` of it.
+//! - [`export`] writes models for other programs.
 //! - [`units`] reads quantities such as `"2.184 lbf*in/A"`.
 //! - [`mod@write`] writes files whole or not at all.
 //!
@@ -21,6 +22,7 @@ pub mod campaign;
 pub mod comparison;
 mod config;
 mod excerpt;
+pub mod export;
 pub mod inspect;
 mod io_error;
 pub mod log;

@@ -6,6 +6,7 @@ use super::compare_args::CompareArgs;
 use super::completions_args::CompletionsArgs;
 use super::demo_args::DemoArgs;
 use super::equivalent_args::EquivalentArgs;
+use super::export_args::ExportArgs;
 use super::figures_args::FiguresArgs;
 use super::identify_args::IdentifyArgs;
 use super::init_args::InitArgs;
@@ -50,6 +51,8 @@ pub(crate) enum Command {
     Validate(ValidateArgs),
     /// Show the parameters of two or more results side by side
     Compare(CompareArgs),
+    /// Write a model for python-control, MATLAB, MuJoCo, URDF or C
+    Export(ExportArgs),
     /// Find the lumped arm that behaves as a beam does at its measured points
     Equivalent(EquivalentArgs),
     /// Predict an identified arm with other payloads

@@ -5,6 +5,7 @@ pub(crate) mod compare_args;
 pub(crate) mod completions_args;
 pub(crate) mod demo_args;
 pub(crate) mod equivalent_args;
+pub(crate) mod export_args;
 pub(crate) mod figures_args;
 pub(crate) mod identify_args;
 pub(crate) mod init_args;

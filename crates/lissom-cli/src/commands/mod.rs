@@ -4,6 +4,7 @@ pub(crate) mod compare_command;
 pub(crate) mod completions_command;
 pub(crate) mod demo;
 pub(crate) mod equivalent;
+pub(crate) mod export_command;
 pub(crate) mod identify_command;
 pub(crate) mod init_command;
 pub(crate) mod inspect_command;

@@ -1,0 +1,178 @@
+//! `lissom export`: what is written holds the numbers of the result, and a C compiler accepts it.
+#![expect(clippy::unwrap_used, reason = "tests")]
+
+use std::fs;
+use std::path::Path;
+use std::process::Command;
+
+use serde_json::Value;
+use tempfile::TempDir;
+
+const AXIS: &str = r#"
+[beam]
+rigid = true
+[drive]
+inertia = "0.012 kg*m^2"
+viscous = "0.05 N*m*s/rad"
+torque_constant = "0.5 N*m/A"
+coulomb = "0.25 N*m"
+[rig]
+sample_time = "2 ms"
+controller = { proportional = "30 A/rad", derivative = "1 A*s/rad" }
+"#;
+const PLAN: &str = r#"
+[[runs]]
+name = "log"
+multisine = { frequency = "0.2 Hz", to = "2 Hz", amplitude = "1 rad" }
+record = "20 s"
+"#;
+
+fn lissom(folder: &Path, arguments: &[&str]) -> (Option<i32>, String) {
+    let mut command = Command::new(assert_cmd::cargo::cargo_bin!("lissom"));
+    let output = command.args(arguments).current_dir(folder).env("NO_COLOR", "1").output().unwrap();
+    (output.status.code(), String::from_utf8(output.stderr).unwrap())
+}
+
+/// A folder with the result of a rigid axis.
+fn result() -> (TempDir, Value) {
+    let folder = tempfile::tempdir().unwrap();
+    fs::write(folder.path().join("axis.toml"), AXIS).unwrap();
+    fs::write(folder.path().join("plan.toml"), PLAN).unwrap();
+    let (code, error) =
+        lissom(folder.path(), &["rig", "axis.toml", "--campaign", "plan.toml", "--out", "made"]);
+    assert_eq!(code, Some(0), "{error}");
+    let (code, error) = lissom(
+        folder.path(),
+        &["identify", "made/campaign.toml", "--quick", "--json", "result.json"],
+    );
+    assert_eq!(code, Some(0), "{error}");
+    let result =
+        serde_json::from_str(&fs::read_to_string(folder.path().join("result.json")).unwrap());
+    (folder, result.unwrap())
+}
+
+fn export(folder: &Path, more: &[&str]) -> (Option<i32>, String) {
+    lissom(folder, &[&["export", "result.json", "--to"], more].concat())
+}
+
+#[test]
+fn the_c_code_compiles_and_gives_the_torque() {
+    let (folder, result) = result();
+    let (code, error) = export(folder.path(), &["c", "--out", "c"]);
+    assert_eq!(code, Some(0), "{error}");
+    let main = "#include <stdio.h>\n#include \"lissom_feedforward.h\"\nint main(void) { printf(\"%.9g %.9g %.9g\\n\", \
+                lissom_friction(2.0f, 0.3f, 0.1f), lissom_friction(-2.0f, 0.3f, 0.1f), \
+                lissom_command(3.0f, 0.0f, 0.0f, 0.1f)); return 0; }\n";
+    fs::write(folder.path().join("c/main.c"), main).unwrap();
+    let flags = ["-std=c99", "-Wall", "-Wextra", "-Werror", "main.c", "lissom_feedforward.c"];
+    let compiled = Command::new("cc")
+        .current_dir(folder.path().join("c"))
+        .args(flags)
+        .args(["-o", "main", "-lm"])
+        .output();
+    let compiled = compiled.unwrap();
+    assert!(compiled.status.success(), "{}", String::from_utf8_lossy(&compiled.stderr));
+    let run = Command::new(folder.path().join("c/main")).output().unwrap();
+    let printed = String::from_utf8(run.stdout).unwrap();
+    let numbers: Vec<f64> = printed.split_whitespace().map(|n| n.parse().unwrap()).collect();
+    let arm = |key: &str| result["arm"][key].as_f64().unwrap();
+    let near = result["arm"]["near_rest"].as_object().map_or(0.0, |n| {
+        n["amplitude_nm"].as_f64().unwrap() * (-2.0 / n["speed_rad_per_s"].as_f64().unwrap()).exp()
+    });
+    let size = arm("coulomb_nm") + near;
+    let forward = size + arm("offset_nm") + 2.0 * arm("viscous_forward_nm_s_per_rad");
+    let backward = -size + arm("offset_nm") - 2.0 * arm("viscous_backward_nm_s_per_rad");
+    assert!((numbers[0] / forward - 1.0).abs() < 1e-5, "{numbers:?} {forward}");
+    assert!((numbers[1] / backward - 1.0).abs() < 1e-5, "{numbers:?} {backward}");
+    let command = (3.0 * arm("inertia_kg_m2") + arm("offset_nm")) / 0.5;
+    assert!((numbers[2] / command - 1.0).abs() < 1e-5, "{numbers:?} {command}");
+}
+
+const ROBOT: &str = "<?xml version=\"1.0\"?>\n<!-- <joint name=\"elbow\"/> is a comment -->\n<mujoco>\n  <default>\n    \
+                     <joint damping=\"1\"/>\n  </default>\n  <worldbody>\n    <body>\n      <joint name=\"elbow\" type='hinge' \
+                     damping='9'\n             axis=\"0 0 1\"/>\n      <geom size=\".1\"/>\n    </body>\n  </worldbody>\n  \
+                     <actuator><motor joint=\"elbow\"/></actuator>\n</mujoco>\n";
+
+#[test]
+fn a_joint_of_a_model_gets_the_numbers_and_nothing_else_changes() {
+    let (folder, result) = result();
+    fs::write(folder.path().join("robot.xml"), ROBOT).unwrap();
+    let into = ["mjcf", "--into", "robot.xml", "--joint", "elbow", "--out", "new.xml"];
+    let (code, error) = export(folder.path(), &into);
+    assert_eq!(code, Some(0), "{error}");
+    let arm = |key: &str| result["arm"][key].as_f64().unwrap().to_string();
+    let new = fs::read_to_string(folder.path().join("new.xml")).unwrap();
+    let document = roxmltree::Document::parse(&new).unwrap();
+    let joint = document.descendants().find(|n| n.attribute("name") == Some("elbow")).unwrap();
+    assert_eq!(joint.attribute("armature"), Some(arm("inertia_kg_m2").as_str()));
+    assert_eq!(joint.attribute("frictionloss"), Some(arm("coulomb_nm").as_str()));
+    assert_eq!(joint.attribute("axis"), Some("0 0 1"));
+    assert!(new.starts_with(&ROBOT[..ROBOT.find("<joint name=\"elbow\" type").unwrap()]), "{new}");
+    assert!(new.ends_with(&ROBOT[ROBOT.find("axis=").unwrap()..]), "{new}");
+    let (code, error) = export(
+        folder.path(),
+        &["mjcf", "--into", "robot.xml", "--joint", "wrist", "--out", "no.xml"],
+    );
+    assert_eq!(code, Some(1));
+    assert!(error.contains("there is no joint \"wrist\"; the joints are \"elbow\""), "{error}");
+    assert!(!folder.path().join("no.xml").exists());
+    // The user's own file is not an output.
+    let (code, error) = export(
+        folder.path(),
+        &["mjcf", "--into", "robot.xml", "--joint", "elbow", "--out", "robot.xml"],
+    );
+    assert_eq!(code, Some(1));
+    assert!(error.contains("is an input; it is not overwritten"), "{error}");
+
+    for (joint, expected) in [
+        ("<joint name=\"j\" type=\"revolute\"/>", 2),
+        ("<joint name=\"j\"><dynamics friction=\"3\"/></joint>", 1),
+    ] {
+        fs::write(folder.path().join("robot.urdf"), format!("<robot>{joint}</robot>")).unwrap();
+        let (code, error) = export(
+            folder.path(),
+            &["urdf", "--into", "robot.urdf", "--joint", "j", "--out", "new.urdf"],
+        );
+        assert_eq!(code, Some(0), "{error}");
+        let new = fs::read_to_string(folder.path().join("new.urdf")).unwrap();
+        let document = roxmltree::Document::parse(&new).unwrap();
+        let dynamics: Vec<_> =
+            document.descendants().filter(|n| n.has_tag_name("dynamics")).collect();
+        assert_eq!((dynamics.len(), new.lines().count().min(2)), (1, expected.min(2)), "{new}");
+        assert_eq!(dynamics[0].attribute("friction"), Some(arm("coulomb_nm").as_str()));
+        assert!(dynamics[0].attribute("damping").is_some());
+    }
+}
+
+#[test]
+fn a_matlab_file_and_scripts_have_the_model() {
+    let (folder, result) = result();
+    let (code, error) = export(folder.path(), &["mat", "--out", "arm.mat"]);
+    assert_eq!(code, Some(0), "{error}");
+    let read = lissom_formats::read(&folder.path().join("arm.mat")).unwrap();
+    let den = read.channels.iter().find(|c| c.name == "lissom/den").unwrap();
+    let expected: Vec<f64> = result["models"]["motor"]["den"]
+        .as_array()
+        .unwrap()
+        .iter()
+        .map(|v| v.as_f64().unwrap())
+        .collect();
+    assert_eq!(den.values.len(), expected.len());
+    for (found, expected) in den.values.iter().zip(&expected) {
+        assert!((found - expected).abs() <= 1e-9 * expected.abs(), "{found} {expected}");
+    }
+    for (target, name) in [("python", "arm.py"), ("m", "arm.m"), ("mjcf", "arm.xml")] {
+        let (code, error) = export(folder.path(), &[target, "--out", name]);
+        assert_eq!(code, Some(0), "{error}");
+        let text = fs::read_to_string(folder.path().join(name)).unwrap();
+        let coulomb = result["arm"]["coulomb_nm"].as_f64().unwrap().to_string();
+        assert!(text.contains(&coulomb), "{target}: {text}");
+    }
+    let (code, error) =
+        lissom(folder.path(), &["export", "axis.toml", "--to", "python", "--out", "known.py"]);
+    assert_eq!(code, Some(0), "{error}");
+    assert!(fs::read_to_string(folder.path().join("known.py")).unwrap().contains("dry = 0.25"));
+    let (code, error) = export(folder.path(), &["urdf", "--out", "arm.urdf"]);
+    assert_eq!(code, Some(1));
+    assert!(error.contains("--into robot.urdf --joint NAME"), "{error}");
+}

@@ -1,0 +1,93 @@
+//! Why a model cannot be exported.
+
+use thiserror::Error;
+
+/// Why a model cannot be exported.
+#[derive(Debug, Error)]
+#[non_exhaustive]
+pub enum ExportError {
+    /// The result has no arm.
+    #[error("{file}: the result has no arm: inertia or Coulomb friction is refused")]
+    NoArm {
+        /// The result.
+        file: String,
+    },
+    /// A description without numbers of the drive, or with a beam that has no such form.
+    #[error("{file}: {reason}")]
+    Arm {
+        /// The description.
+        file: String,
+        /// What is missing.
+        reason: &'static str,
+    },
+    /// The torque constant is unknown, so nothing is in N·m.
+    #[error("{file}: the torque constant is unknown, and {target} needs torques in N·m")]
+    NoTorque {
+        /// The result.
+        file: String,
+        /// The target.
+        target: &'static str,
+    },
+    /// The file to merge into cannot be read.
+    #[error("{file}: {source}")]
+    Read {
+        /// The file.
+        file: String,
+        /// The cause.
+        source: std::io::Error,
+    },
+    /// The file to merge into is no XML.
+    #[error("{file}: is not valid XML: {reason}")]
+    Xml {
+        /// The file.
+        file: String,
+        /// What is wrong, with line and column.
+        reason: String,
+    },
+    /// There is no such joint.
+    #[error("{file}: there is no joint \"{joint}\"; the joints are {}", list(.joints))]
+    NoJoint {
+        /// The file.
+        file: String,
+        /// The name.
+        joint: String,
+        /// The joints of the file.
+        joints: Vec<String>,
+    },
+    /// Several joints have that name.
+    #[error("{file}: several joints are called \"{joint}\"")]
+    Several {
+        /// The file.
+        file: String,
+        /// The name.
+        joint: String,
+    },
+}
+
+fn list(names: &[String]) -> String {
+    if names.is_empty() {
+        return "not named".to_owned();
+    }
+    names.iter().map(|n| format!("\"{n}\"")).collect::<Vec<_>>().join(", ")
+}
+
+impl ExportError {
+    /// What the user can do.
+    pub fn hint(&self) -> Option<String> {
+        Some(
+            match self {
+                Self::NoArm { .. } => {
+                    "read the findings of the result: they say which run is missing"
+                }
+                Self::Arm { .. } => "give a [drive] and a beam, as the page arm.toml explains",
+                Self::NoTorque { .. } => {
+                    "give torque_constant in [drive] of the campaign, and identify again"
+                }
+                Self::Read { .. } => "check the path",
+                Self::Xml { .. } => "give the file that the simulator reads",
+                Self::NoJoint { .. } | Self::Several { .. } => "give the name with --joint",
+            }
+            .to_owned(),
+        )
+    }
+}

@@ -1,0 +1,179 @@
+//! The arm that is exported, and what a target needs to know of it.
+
+use std::path::Path;
+
+use lissom_core::arm::Arm;
+use lissom_core::lti::{StateSpace, TransferFunction};
+use lissom_core::record::{Axis, CommandQuantity};
+use lissom_core::replay::ModalArm;
+
+use super::export_error::ExportError;
+use crate::io_error::Error;
+use crate::result::{FrequencyResponseEntry, ListedParameter, ResultFile, UnitNames, read_result};
+
+/// An arm for another program.
+#[derive(Debug, Clone)]
+pub struct ExportModel {
+    /// The file that it is from.
+    pub file: String,
+    /// Units of the numbers.
+    pub names: UnitNames,
+    /// Torque per unit of command; 1 if it is unknown, torques are then in the unit of the command.
+    pub torque_per_command: f64,
+    /// The arm. Its viscous friction contains the damping by back-EMF.
+    pub arm: ModalArm,
+    /// Names of the tips.
+    pub tips: Vec<String>,
+    /// The estimates with their standard errors; empty for a description.
+    pub parameters: Vec<ListedParameter>,
+    /// The measured responses; `None` for a description.
+    pub responses: Option<FrequencyResponseEntry>,
+}
+
+/// The model of a `result.json`.
+///
+/// # Errors
+/// [`Error::Result`] if the file is no result, [`ExportError::NoArm`] if the result has no arm.
+pub fn export_model_of_result(path: &Path) -> Result<ExportModel, Error> {
+    let file = path.display().to_string();
+    let listed = read_result(path)?;
+    let text = crate::read_text::read_text(path)
+        .map_err(|source| ExportError::Read { file: file.clone(), source })?;
+    let result: ResultFile = serde_json::from_str(text.trim_start_matches('\u{feff}'))
+        .map_err(|source| crate::result::ResultError::Json { file: file.clone(), source })?;
+    let Some(entry) = &result.arm else { return Err(ExportError::NoArm { file }.into()) };
+    let found = entry.found(listed.names).map_err(|wrong| crate::result::ResultError::Key {
+        file: file.clone(),
+        key: wrong.key,
+        expected: wrong.expected,
+    })?;
+    Ok(ExportModel {
+        file,
+        names: listed.names,
+        torque_per_command: result.torque_per_command.unwrap_or(1.0),
+        tips: entry.tips.iter().map(|tip| tip.name.clone()).collect(),
+        arm: found.arm,
+        parameters: listed.parameters,
+        responses: Some(result.frequency_response),
+    })
+}
+
+/// The model of an arm that an `arm.toml` describes.
+///
+/// # Errors
+/// [`ExportError::Arm`] if the arm has no such model: too many modes, or modes that are not distinct.
+pub fn export_model_of_arm(file: &Path, arm: &Arm) -> Result<ExportModel, ExportError> {
+    let file = file.display().to_string();
+    let reason = "the beam has no modal form: its modes are not distinct or too many";
+    let Some(modal) = ModalArm::of_arm(arm) else { return Err(ExportError::Arm { file, reason }) };
+    let tips = (1..=modal.shapes.len()).map(|i| format!("mass_{i}")).collect();
+    Ok(ExportModel {
+        file,
+        names: UnitNames {
+            torque_known: true,
+            axis: Axis::Rotary,
+            command: CommandQuantity::Current,
+        },
+        torque_per_command: arm.motor.torque_constant_nm_per_a(),
+        tips,
+        arm: modal,
+        parameters: Vec::new(),
+        responses: None,
+    })
+}
+
+impl ExportModel {
+    /// The linear model without friction, from the command to motor and tips.
+    pub(super) fn state_space(&self) -> StateSpace {
+        let tips: Vec<(usize, String)> = self.tips.iter().cloned().enumerate().collect();
+        self.arm.state_space(self.torque_per_command, &tips, self.names.angle())
+    }
+
+    /// Motor angle per command.
+    pub(super) fn motor_function(&self) -> TransferFunction {
+        self.arm.motor_function(self.torque_per_command)
+    }
+
+    /// Unit of torques in words.
+    pub(super) fn torque_unit(&self) -> &'static str {
+        match (self.names.torque_known, self.names.axis) {
+            (true, Axis::Rotary) => "N*m",
+            (true, Axis::Linear) => "N",
+            (false, _) => "unit of the command",
+        }
+    }
+
+    /// Lines about the origin, and the estimates with their standard errors.
+    pub(super) fn about(&self) -> Vec<String> {
+        let mut lines = vec![format!(
+            "Made by lissom {} from {}. SI units and rad/s; torques in {}.",
+            env!("CARGO_PKG_VERSION"),
+            super::number_text::plain(&self.file),
+            self.torque_unit()
+        )];
+        lines.extend(self.parameters.iter().filter_map(|p| {
+            let e = p.estimate.as_ref()?;
+            Some(format!("{} {:.6e} +- {:.1e} (standard error)", p.key, e.value, e.std))
+        }));
+        lines
+    }
+
+    /// What a target without friction other than Coulomb and viscous friction cannot carry.
+    pub(super) fn lost_friction(&self) -> Vec<String> {
+        let arm = &self.arm;
+        let [forward, backward] = arm.viscous_nm_s_per_rad;
+        let mut lost = Vec::new();
+        if arm.offset_nm.abs() > 0.0 {
+            lost.push(format!(
+                "offset {:.4e} {} (constant load, or friction that differs by direction)",
+                arm.offset_nm,
+                self.torque_unit()
+            ));
+        }
+        if (forward - backward).abs() > 0.0 {
+            lost.push(format!("viscous friction by direction: {forward:.4e} and {backward:.4e}"));
+        }
+        if let Some(near) = &arm.dry_terms.near_rest {
+            lost.push(format!(
+                "change of friction near standstill: {:.4e} {} below about {:.4e} {}/s",
+                near.torque_nm,
+                self.torque_unit(),
+                near.speed_rad_s,
+                self.names.angle()
+            ));
+        }
+        if !arm.dry_terms.ripples.is_empty() {
+            lost.push(format!(
+                "{} ripple(s) of friction over the travel",
+                arm.dry_terms.ripples.len()
+            ));
+        }
+        if arm.command_lag_s.abs() > 0.0 {
+            lost.push(format!("delay of the command: {:.4e} s", arm.command_lag_s));
+        }
+        lost
+    }
+
+    /// Mean viscous friction of both directions.
+    pub(super) fn viscous(&self) -> f64 {
+        0.5 * (self.arm.viscous_nm_s_per_rad[0] + self.arm.viscous_nm_s_per_rad[1])
+    }
+
+    /// Gains of WPILib for a command in volts: kS, kV, kA and kG.
+    pub(super) fn wpilib(&self) -> Option<[f64; 4]> {
+        let volts = self.names.command == CommandQuantity::Voltage;
+        let k = self.torque_per_command;
+        let gravity = self.arm.gravity.map_or(0.0, |g| g.sine_nm.hypot(g.cosine_nm));
+        let gains =
+            [self.arm.coulomb_nm, self.viscous(), self.arm.inertia_kg_m2, gravity].map(|x| x / k);
+        volts.then_some(gains)
+    }
+
+    /// Refuses a model without a torque constant.
+    pub(super) fn needs_torque(&self, target: &'static str) -> Result<(), ExportError> {
+        if self.names.torque_known {
+            return Ok(());
+        }
+        Err(ExportError::NoTorque { file: self.file.clone(), target })
+    }
+}

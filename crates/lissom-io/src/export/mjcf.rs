@@ -1,0 +1,122 @@
+//! MuJoCo: parameters of a joint in a user's model, or a whole model.
+
+use std::fmt::Write as _;
+
+use lissom_core::record::Axis;
+
+use super::export_error::ExportError;
+use super::export_model::ExportModel;
+use super::number_text::{number, plain};
+use super::xml_edit::{joint, parsed, with_attributes};
+
+/// Time step of a whole model [s].
+const STEP_S: f64 = 1e-4;
+
+/// The text of a user's model in which the joint has armature, damping and frictionloss of the arm.
+///
+/// The inertia goes into `armature`: for a rigid axis the bodies of the model must not count it again.
+///
+/// # Errors
+/// [`ExportError`] if the torque constant is unknown, the text is no XML, or there is no such joint.
+pub fn mjcf_into(
+    model: &ExportModel,
+    file: &str,
+    text: &str,
+    name: &str,
+) -> Result<String, ExportError> {
+    model.needs_torque("MuJoCo")?;
+    let document = parsed(file, text)?;
+    let found = joint(file, &document, name)?;
+    let set = [
+        ("armature", number(model.arm.inertia_kg_m2)),
+        ("damping", number(model.viscous())),
+        ("frictionloss", number(model.arm.coulomb_nm)),
+    ];
+    Ok(with_attributes(text, found.node, &set))
+}
+
+/// A whole model: the motor as a joint with friction, and each mode of the beam as an inertia on the same axis that a
+/// spring and a damper hold to the motor. The actuator's control is the command.
+///
+/// # Errors
+/// [`ExportError::NoTorque`] if the torque constant is unknown.
+pub fn mjcf(model: &ExportModel) -> Result<String, ExportError> {
+    model.needs_torque("MuJoCo")?;
+    let arm = &model.arm;
+    let (kind, axis) = match model.names.axis {
+        Axis::Rotary => ("hinge", "0 0 1"),
+        Axis::Linear => ("slide", "1 0 0"),
+    };
+    let mut text = String::from("<mujoco model=\"lissom\">\n <!--\n");
+    for line in model.about() {
+        let _ = writeln!(text, "  {}", plain(&line));
+    }
+    for lost in model.lost_friction() {
+        let _ = writeln!(text, "  Not in this model: {}.", plain(&lost));
+    }
+    if arm.gravity.is_some() {
+        text.push_str("  Not in this model: gravity of the load.\n");
+    }
+    if !arm.at_points_per_s.is_empty() {
+        text.push_str("  Dampers at points are added to the modes; they couple them in the arm.\n");
+    }
+    text.push_str(
+        "  MuJoCo's friction is a soft constraint: at rest the joint creeps a little, and a stick ends a few steps earlier\n  \
+         or later than in a joint that really sticks.\n -->\n \
+         <compiler boundmass=\"0\" boundinertia=\"0\"/>\n",
+    );
+    let _ = writeln!(
+        text,
+        " <option timestep=\"{}\" gravity=\"0 0 0\" integrator=\"implicitfast\"/>\n <worldbody>",
+        number(STEP_S)
+    );
+    let light = "<inertial pos=\"0 0 0\" mass=\"1e-9\" diaginertia=\"1e-12 1e-12 1e-12\"/>";
+    let stick = format!(
+        "solreffriction=\"{} 1\" solimpfriction=\"0.99999 0.99999 0.001 0.5 2\"",
+        number(2.0 * STEP_S)
+    );
+    let _ = writeln!(
+        text,
+        "  <body name=\"motor\">{light}\n   <joint name=\"motor\" type=\"{kind}\" axis=\"{axis}\" armature=\"{}\" damping=\"{}\" \
+         frictionloss=\"{}\" {stick}/>\n  </body>",
+        number(arm.inertia_kg_m2),
+        number(model.viscous()),
+        number(arm.coulomb_nm)
+    );
+    let ratios = arm.damping_ratios();
+    for (k, mode) in arm.modes.iter().enumerate() {
+        // Dampers at points, to first order, are what the damping ratio has beyond the mode's own dampers.
+        let own = mode.within_per_s + mode.grounded_per_s;
+        let points = 2.0 * ratios[k] * mode.omega_rad_s - own;
+        let grounded = (mode.grounded_per_s + points) * mode.inertia_kg_m2();
+        let _ = writeln!(
+            text,
+            "  <body name=\"mode_{n}\">{light}\n   <joint name=\"mode_{n}\" type=\"{kind}\" axis=\"{axis}\" armature=\"{}\" \
+             damping=\"{}\"/>\n  </body>",
+            number(mode.inertia_kg_m2()),
+            number(grounded.max(0.0)),
+            n = k + 1
+        );
+    }
+    text.push_str(" </worldbody>\n");
+    if !arm.modes.is_empty() {
+        text.push_str(" <tendon>\n");
+        for (k, mode) in arm.modes.iter().enumerate() {
+            let _ = writeln!(
+                text,
+                "  <fixed name=\"spring_{n}\" stiffness=\"{}\" damping=\"{}\" springlength=\"0\">\n   \
+                 <joint joint=\"motor\" coef=\"1\"/>\n   <joint joint=\"mode_{n}\" coef=\"-1\"/>\n  </fixed>",
+                number(mode.stiffness_nm_per_rad),
+                number((mode.within_per_s * mode.inertia_kg_m2()).max(0.0)),
+                n = k + 1
+            );
+        }
+        text.push_str(" </tendon>\n");
+    }
+    let _ = writeln!(
+        text,
+        " <actuator>\n  <motor name=\"command\" joint=\"motor\" gear=\"{}\"/>\n </actuator>\n</mujoco>",
+        number(model.torque_per_command)
+    );
+    Ok(text)
+}

@@ -1,0 +1,29 @@
+//! URDF: `dynamics` of a joint in a user's robot.
+
+use super::export_error::ExportError;
+use super::export_model::ExportModel;
+use super::number_text::number;
+use super::xml_edit::{joint, parsed, with_attributes, with_child};
+
+/// The text of a user's robot in which the joint has damping and friction of the arm. URDF has no inertia of the motor.
+///
+/// # Errors
+/// [`ExportError`] if the torque constant is unknown, the text is no XML, or there is no such joint.
+pub fn urdf_into(
+    model: &ExportModel,
+    file: &str,
+    text: &str,
+    name: &str,
+) -> Result<String, ExportError> {
+    model.needs_torque("URDF")?;
+    let document = parsed(file, text)?;
+    let found = joint(file, &document, name)?;
+    let (damping, friction) = (number(model.viscous()), number(model.arm.coulomb_nm));
+    let dynamics = found.node.children().find(|n| n.has_tag_name("dynamics"));
+    Ok(if let Some(node) = dynamics {
+        with_attributes(text, node, &[("damping", damping), ("friction", friction)])
+    } else {
+        let child = format!("<dynamics damping=\"{damping}\" friction=\"{friction}\"/>");
+        with_child(text, found.node, &child)
+    })
+}
