@@ -3,6 +3,8 @@
 //! The longest axis of an array counts the samples; every place on the other axes is a channel. Of a square array the
 //! columns are the channels.
 
+use std::borrow::Cow;
+
 use crate::collected::{Collected, LeftOut};
 use crate::format_error::FormatError;
 use crate::log_data::Channel;
@@ -20,7 +22,7 @@ const BLOCK_BYTES: usize = 1 << 15;
 /// An array of numbers in the bytes of a file.
 #[derive(Debug, Clone)]
 pub(crate) struct Array<'a> {
-    pub(crate) bytes: &'a [u8],
+    pub(crate) bytes: Cow<'a, [u8]>,
     pub(crate) number: Number,
     pub(crate) axes: Vec<Axis>,
 }
@@ -102,7 +104,7 @@ impl Array<'_> {
     pub(crate) fn scalar(&self) -> Option<f64> {
         let mut value = Vec::with_capacity(1);
         if self.axes.iter().all(|axis| axis.length == 1) {
-            self.number.append(&mut value, self.bytes, self.number.kind.size(), 1);
+            self.number.append(&mut value, &self.bytes, self.number.kind.size(), 1);
         }
         value.pop()
     }

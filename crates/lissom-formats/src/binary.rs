@@ -1,6 +1,8 @@
 //! Formats that are no tables of text, recognised by their first bytes.
 
 use crate::format_error::FormatError;
+#[cfg(feature = "hdf5")]
+use crate::hdf5;
 use crate::log_data::LogData;
 use crate::{matlab, numpy, tdms, uff58, wpilog, zip};
 
@@ -11,12 +13,16 @@ struct Binary {
     read: fn(&[u8]) -> Result<LogData, FormatError>,
 }
 
-const BINARY: [Binary; 6] = [
+const BINARY: &[Binary] = &[
     Binary { begins: |bytes| bytes.starts_with(numpy::NPY), read: numpy::read_npy },
     Binary { begins: matlab::begins_v5, read: matlab::read_v5 },
     Binary { begins: |bytes| bytes.starts_with(wpilog::WPILOG), read: wpilog::read },
     Binary { begins: |bytes| bytes.starts_with(tdms::TDMS), read: tdms::read },
     Binary { begins: uff58::begins, read: uff58::read },
+    #[cfg(feature = "hdf5")]
+    Binary { begins: |bytes| bytes.starts_with(hdf5::HDF5), read: hdf5::read },
+    #[cfg(feature = "hdf5")]
+    Binary { begins: |bytes| bytes.starts_with(matlab::MATLAB_73), read: matlab::read_v73 },
     Binary { begins: matlab::begins_v4, read: matlab::read_v4 },
 ];
 

@@ -18,7 +18,7 @@ pub enum Format {
     Codesys,
     /// JSON: arrays, records, or a record on each line.
     Json,
-    /// MATLAB file of a version before 7.3.
+    /// MATLAB file.
     Matlab,
     /// Array of NumPy.
     Npy,
@@ -30,6 +30,8 @@ pub enum Format {
     Tdms,
     /// Universal file with datasets 58.
     Uff58,
+    /// HDF5 file.
+    Hdf5,
 }
 
 impl Format {
@@ -45,6 +47,7 @@ impl Format {
             Self::Npy => "NumPy array",
             Self::Tdms => "TDMS file",
             Self::Uff58 => "universal file",
+            Self::Hdf5 => "HDF5 file",
             Self::WpiLog => "WPILib log",
             Self::Npz => "NumPy archive",
         }
@@ -58,7 +61,7 @@ pub(crate) fn foreign(bytes: &[u8]) -> Option<(&'static str, &'static str)> {
         (b"%PDF", "a PDF document", NO_TABLE),
         (b"\x89PNG", "a picture", NO_TABLE),
         (b"\xFF\xD8\xFF", "a picture", NO_TABLE),
-        (b"\x89HDF\r\n\x1a\n", "an HDF5 file (MATLAB v7.3 files are such files)", AS_CSV),
+        (b"\x89HDF\r\n\x1a\n", "an HDF5 file (MATLAB v7.3 files are such files)", HDF5),
         (b"MATLAB 7.", "a MATLAB file of version 7.3 (HDF5)", MATLAB),
         (ZIP, "a ZIP archive without NumPy arrays (xlsx files are such archives)", ARCHIVE),
         (b"\x89MCAP0\r\n", "an MCAP file", AS_CSV),
@@ -73,8 +76,21 @@ pub(crate) fn foreign(bytes: &[u8]) -> Option<(&'static str, &'static str)> {
         (b"\x80", "a Python pickle", PICKLE),
     ];
     const NO_TABLE: &str = "give the table of numbers as text";
+    /// Which build reads a format.
+    macro_rules! full_or {
+        ($format:literal, $way_out:literal) => {
+            concat!(
+                "this build of lissom has no reader for ",
+                $format,
+                ": install it with `--features full`, or ",
+                $way_out
+            )
+        };
+    }
+    const HDF5: &str = full_or!("HDF5 files", "export the channels as CSV");
+    const MATLAB: &str =
+        full_or!("HDF5 files", "in MATLAB: load(FILE); save(\"log.mat\", \"-v7\")");
     const AS_CSV: &str = "export the channels as CSV";
-    const MATLAB: &str = "in MATLAB: load(FILE); save(\"log.mat\", \"-v7\")";
     const ARCHIVE: &str = "unpack it, or save the table as CSV";
     const BAG: &str = "convert the bag to MCAP or export the topics as CSV";
     const PICKLE: &str = "pickles can run programs and are never loaded; in Python: \

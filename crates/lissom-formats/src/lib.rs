@@ -13,6 +13,10 @@
 //! | WPILib `.wpilog` | entries of numbers and of arrays of numbers, each with its own clock |
 //! | TDMS | channels of numbers and time stamps, of NI-DAQmx too, linear and polynomial scales; waveforms have their clock |
 //! | UFF, UNV | time responses in datasets 58 and 58b, each with its own clock |
+//! | MATLAB v7.3 (feature `hdf5`) | as the earlier versions |
+//! | HDF5 (feature `hdf5`) | datasets of numbers with the path of their groups, compound types by field, units in attributes |
+//!
+//! The feature `full` has all formats. Without its feature, a format is recognised, and the error states the way out.
 //!
 //! Text may be UTF-8, UTF-16 or Windows-1252; `.gz` and `.zst` are expanded.
 
@@ -23,6 +27,10 @@ mod collected;
 mod cursor;
 mod format;
 mod format_error;
+#[cfg(feature = "hdf5")]
+mod guard;
+#[cfg(feature = "hdf5")]
+mod hdf5;
 mod json;
 mod log_data;
 mod matlab;

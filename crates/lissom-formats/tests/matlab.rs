@@ -146,10 +146,12 @@ fn deep_nesting_and_large_counts_end() {
 }
 
 #[test]
-fn a_file_of_version_7_3_is_named() {
+#[cfg(not(feature = "hdf5"))]
+fn a_build_without_the_feature_names_a_file_of_version_7_3() {
     let mut bytes = b"MATLAB 7.3 MAT-file, Platform: GLNXA64".to_vec();
     bytes.resize(124, b' ');
     bytes.extend(b"\x00\x02IM");
     let error = read_bytes(bytes).unwrap_err();
     assert!(error.to_string().contains("version 7.3 (HDF5)"), "{error}");
+    assert!(error.hint().contains("--features full"), "{}", error.hint());
 }

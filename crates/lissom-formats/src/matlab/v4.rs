@@ -61,7 +61,7 @@ fn collect<'a>(
         0 if matrix.is_complex => found.leave_out(name, &COMPLEX),
         0 => {
             if let Some(axes) = axes(&matrix.lengths, size, true) {
-                Array { bytes, number: matrix.number, axes }.collect(name, found)?;
+                Array { bytes: bytes.into(), number: matrix.number, axes }.collect(name, found)?;
             }
         }
         1 => {}

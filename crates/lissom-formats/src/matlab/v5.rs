@@ -146,7 +146,11 @@ impl Reader {
         let Element { kind, data } = elements::next(cursor)?;
         let kind = elements::number_type(kind)?;
         let number = Number::new(kind, self.big_endian);
-        Some(Value::Numbers(Array { bytes: data, number, axes: axes(lengths, kind.size(), true)? }))
+        Some(Value::Numbers(Array {
+            bytes: data.into(),
+            number,
+            axes: axes(lengths, kind.size(), true)?,
+        }))
     }
 
     /// A text of one row; others are no units, and an empty text takes their place.

@@ -67,7 +67,7 @@ fn collect(name: &str, bytes: &[u8], found: &mut Collected) -> Result<(), Format
     let size = header.of.size;
     let axes = axes(&shape, size, header.first_is_fastest)
         .ok_or_else(|| wrong("the array is larger than the file"))?;
-    let array = Array { bytes: content, number: Number::new(NumberType::U8, false), axes };
+    let array = Array { bytes: content.into(), number: Number::new(NumberType::U8, false), axes };
     fields(name, &header.of, &array, found)
 }
 
@@ -88,7 +88,7 @@ fn fields(
         }
         Kind::Time { big_endian, unit_s, are_dates } => {
             let number = Number::new(NumberType::Ticks { origin: 0 }, *big_endian);
-            array.number = if *are_dates { number.since_first(array.bytes) } else { number };
+            array.number = if *are_dates { number.since_first(&array.bytes) } else { number };
             let first = found.channels.len();
             array.collect(label, found)?;
             for channel in found.channels.iter_mut().skip(first) {
@@ -108,8 +108,9 @@ fn fields(
                     "" => field.name.clone(),
                     name => format!("{name}/{}", field.name),
                 };
-                let bytes = array.bytes.get(field.offset..).unwrap_or_default();
-                fields(&path, &field.of, &Array { bytes, ..array.clone() }, found)?;
+                let bytes = array.bytes.get(field.offset..).unwrap_or_default().into();
+                let (number, axes) = (array.number, array.axes.clone());
+                fields(&path, &field.of, &Array { bytes, number, axes }, found)?;
             }
             Ok(())
         }

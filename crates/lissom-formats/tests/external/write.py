@@ -1,8 +1,9 @@
 """Writes log files with other people's libraries, and beside each the channels that should be found in it.
 
-    pip install numpy scipy npTDMS pytest pyuff "robotpy-wpiutil<2025"
+    pip install numpy scipy npTDMS pytest pyuff "robotpy-wpiutil<2025" \
+        h5py hdf5storage
     python write.py FOLDER
-    LISSOM_EXTERNAL=FOLDER cargo test -p lissom-formats --test external -- --nocapture
+    LISSOM_EXTERNAL=FOLDER cargo test -p lissom-formats --features full --test external -- --nocapture
 """
 
 import pathlib
@@ -10,6 +11,7 @@ import sys
 
 import numpy as np
 
+import hdf5_files
 import matlab_files
 import numpy_files
 import tdms_files
@@ -20,7 +22,7 @@ SEED = 20261127
 
 
 def main(folder):
-    for module in (numpy_files, matlab_files, wpilog_files, tdms_files, uff_files):
+    for module in (numpy_files, matlab_files, wpilog_files, tdms_files, uff_files, hdf5_files):
         place = pathlib.Path(folder) / module.__name__
         place.mkdir(parents=True, exist_ok=True)
         count = module.write_all(place, np.random.default_rng(SEED))

@@ -1,0 +1,268 @@
+//! MATLAB files of version 7.3: HDF5 files, with the class of each variable in an attribute.
+//!
+//! A struct is a group, a struct array a group of references for each field, and a cell array a dataset of references.
+//! The axes are in the order of HDF5, which is the reverse of MATLAB's.
+
+use std::collections::BTreeMap;
+
+use hdf5_pure::{AttrValue, Dataset, Datatype, Group, Object};
+
+use super::left_out::{COMPLEX, SPARSE, TOO_DEEP, object as object_class};
+use super::value::{Struct, Value, collect};
+use crate::array::{Array, axes, items};
+use crate::collected::{Collected, LeftOut};
+use crate::format::Format;
+use crate::format_error::FormatError;
+use crate::guard::guarded;
+use crate::hdf5::dataset;
+use crate::log_data::LogData;
+
+/// First bytes of a file; HDF5 begins behind them.
+pub(crate) const MATLAB_73: &[u8] = b"MATLAB 7.";
+/// Deepest nesting of structs and cells.
+const MOST_DEPTH: usize = 32;
+/// Most values: references may lead to one value on any number of paths.
+const MOST_VALUES: usize = 1_000_000;
+/// Longest text that is kept: units are short.
+const MOST_TEXT: usize = 256;
+
+const CYCLES: LeftOut = LeftOut {
+    what: "references that lead back to themselves",
+    way_out: "save the variables again in MATLAB",
+};
+const UNKNOWN: LeftOut = LeftOut {
+    what: "values of an unknown type",
+    way_out: "in MATLAB: x = double(x); save(\"log.mat\", \"x\")",
+};
+
+/// Reads a file.
+pub(crate) fn read(bytes: &[u8]) -> Result<LogData, FormatError> {
+    guarded(Format::Matlab, || {
+        let file = dataset::opened(bytes)?;
+        let mut found = Collected::new();
+        for (name, variable) in children(&file.root())? {
+            // The targets of references, and the content of objects.
+            if name.starts_with('#') {
+                continue;
+            }
+            let mut reader = Reader { taken: 0, values: 0, path: Vec::new() };
+            let read = reader.value(&variable, 0, &mut found);
+            match read.and_then(|value| collect(&name, &value, &mut found)) {
+                Ok(()) => {}
+                Err(error @ FormatError::TooLarge { .. }) => return Err(error),
+                Err(error) => found.note(format!("{name} is left out: {error}")),
+            }
+            found.release_bytes(reader.taken);
+        }
+        found.finish(Format::Matlab)
+    })
+}
+
+/// The objects of a group, by name.
+fn children(group: &Group) -> Result<BTreeMap<String, Object>, FormatError> {
+    let mut found = BTreeMap::new();
+    for (name, dataset) in group.iter_datasets().map_err(dataset::damaged)? {
+        found.insert(name, Object::Dataset(Box::new(dataset)));
+    }
+    for (name, group) in group.iter_groups().map_err(dataset::damaged)? {
+        found.insert(name, Object::Group(group));
+    }
+    Ok(found)
+}
+
+/// The attributes by which MATLAB describes a value.
+struct Attributes {
+    class: Option<String>,
+    is_empty: bool,
+    is_sparse: bool,
+    is_object: bool,
+}
+
+impl Attributes {
+    fn of(object: &Object) -> Result<Self, FormatError> {
+        let attributes = match object {
+            Object::Group(group) => group.attrs(),
+            Object::Dataset(dataset) => dataset.attrs(),
+            _ => Ok(std::collections::HashMap::default()),
+        };
+        let attributes = attributes.map_err(dataset::damaged)?;
+        let class = attributes.get("MATLAB_class").and_then(AttrValue::as_str);
+        Ok(Self {
+            class: class.map(|class| class.trim_end_matches('\0').to_owned()),
+            is_empty: attributes.contains_key("MATLAB_empty"),
+            is_sparse: attributes.contains_key("MATLAB_sparse"),
+            is_object: attributes.contains_key("MATLAB_object_decode"),
+        })
+    }
+}
+
+/// Reads a variable.
+struct Reader {
+    /// Bytes that its values take in memory.
+    taken: usize,
+    values: usize,
+    /// Addresses of the references that lead to the value that is read.
+    path: Vec<u64>,
+}
+
+impl Reader {
+    fn value(
+        &mut self,
+        object: &Object,
+        depth: usize,
+        found: &mut Collected,
+    ) -> Result<Value<'static>, FormatError> {
+        self.values += 1;
+        if depth >= MOST_DEPTH || self.values > MOST_VALUES {
+            return Ok(Value::LeftOut(&TOO_DEEP));
+        }
+        let attributes = Attributes::of(object)?;
+        let class = attributes.class.as_deref();
+        if attributes.is_sparse {
+            return Ok(Value::LeftOut(&SPARSE));
+        }
+        if let Some(class) = class.filter(|class| attributes.is_object || is_object(class)) {
+            return Ok(Value::LeftOut(object_class(class)));
+        }
+        match object {
+            Object::Group(group) => self.fields(group, depth, found),
+            Object::Dataset(_) if attributes.is_empty => Ok(Value::Text(String::new())),
+            Object::Dataset(dataset) => self.dataset(dataset, class, depth, found),
+            _ => Ok(Value::LeftOut(&UNKNOWN)),
+        }
+    }
+
+    fn dataset(
+        &mut self,
+        dataset: &Dataset,
+        class: Option<&str>,
+        depth: usize,
+        found: &mut Collected,
+    ) -> Result<Value<'static>, FormatError> {
+        let datatype = dataset.datatype().map_err(dataset::damaged)?;
+        if matches!(datatype, Datatype::Reference { .. }) {
+            return Ok(Value::Cells(self.targets(dataset, depth, found)?));
+        }
+        if matches!(datatype, Datatype::Compound { .. }) {
+            return Ok(Value::LeftOut(&COMPLEX));
+        }
+        let mut lengths = dataset::shape(dataset)?;
+        lengths.reverse();
+        let is_row = matches!(lengths[..], [1, length] if length <= MOST_TEXT);
+        if dataset::is_text(&datatype) || (class == Some("char") && !is_row) {
+            return Ok(Value::Text(String::new()));
+        }
+        let Some(number) = dataset::number(&datatype) else {
+            return Ok(Value::LeftOut(&UNKNOWN));
+        };
+        let bytes = self.bytes(dataset, found)?;
+        if class == Some("char") {
+            let units = bytes.as_chunks::<2>().0.iter().map(|unit| u16::from_le_bytes(*unit));
+            let units: Vec<u16> = units.collect();
+            return Ok(Value::Text(String::from_utf16_lossy(&units).trim().to_owned()));
+        }
+        let Some(axes) = axes(&lengths, number.kind.size(), true) else {
+            return Err(dataset::too_large());
+        };
+        Ok(Value::Numbers(Array { bytes: bytes.into(), number, axes }))
+    }
+
+    fn bytes(&mut self, of: &Dataset, found: &mut Collected) -> Result<Vec<u8>, FormatError> {
+        let bytes = dataset::bytes(of, found)?;
+        self.taken += bytes.len();
+        Ok(bytes)
+    }
+
+    /// The values to which the references of a dataset lead, in MATLAB's order.
+    fn targets(
+        &mut self,
+        dataset: &Dataset,
+        depth: usize,
+        found: &mut Collected,
+    ) -> Result<Vec<Value<'static>>, FormatError> {
+        let bytes = self.bytes(dataset, found)?;
+        let addresses = bytes.as_chunks::<8>().0.iter().map(|address| u64::from_le_bytes(*address));
+        self.take(items(&dataset::shape(dataset)?), found)?;
+        let targets = dataset.dereference().map_err(dataset::damaged)?;
+        let mut values = Vec::with_capacity(targets.len());
+        for (address, target) in addresses.zip(&targets) {
+            if self.path.contains(&address) {
+                values.push(Value::LeftOut(&CYCLES));
+                continue;
+            }
+            self.path.push(address);
+            values.push(self.value(target, depth + 1, found)?);
+            self.path.pop();
+        }
+        Ok(values)
+    }
+
+    /// Counts the bytes of handles and values of a number of references.
+    fn take(&mut self, count: Option<usize>, found: &mut Collected) -> Result<(), FormatError> {
+        /// Of a value, and of the handle of a dataset with its header.
+        const BYTES: usize = 2048;
+        let bytes = count.and_then(|count| count.checked_mul(BYTES));
+        let bytes = bytes.ok_or_else(dataset::too_large)?;
+        found.take_bytes(bytes)?;
+        self.taken += bytes;
+        Ok(())
+    }
+
+    /// A struct, or a struct array: of such a one, each field is a dataset of references without a class.
+    fn fields(
+        &mut self,
+        group: &Group,
+        depth: usize,
+        found: &mut Collected,
+    ) -> Result<Value<'static>, FormatError> {
+        let children = children(group)?;
+        let mut is_array = !children.is_empty();
+        for child in children.values() {
+            is_array &= is_references(child)? && Attributes::of(child)?.class.is_none();
+        }
+        let mut columns = Vec::with_capacity(children.len());
+        for child in children.values() {
+            columns.push(match child {
+                Object::Dataset(dataset) if is_array => self.targets(dataset, depth, found)?,
+                child => vec![self.value(child, depth + 1, found)?],
+            });
+        }
+        let fields = children.into_keys().collect();
+        let count = columns.iter().map(Vec::len).min().unwrap_or(0);
+        let mut columns: Vec<_> = columns.into_iter().map(Vec::into_iter).collect();
+        let mut values = Vec::with_capacity(count * columns.len());
+        for _ in 0..count {
+            values.extend(columns.iter_mut().filter_map(Iterator::next));
+        }
+        Ok(Value::Struct(Struct { fields, values }))
+    }
+}
+
+fn is_references(object: &Object) -> Result<bool, FormatError> {
+    let Object::Dataset(dataset) = object else { return Ok(false) };
+    let datatype = dataset.datatype().map_err(dataset::damaged)?;
+    Ok(matches!(datatype, Datatype::Reference { .. }))
+}
+
+/// Whether a class has values that are no numbers, texts, structs or cells.
+fn is_object(class: &str) -> bool {
+    const PLAIN: [&str; 16] = [
+        "double",
+        "single",
+        "int8",
+        "int16",
+        "int32",
+        "int64",
+        "uint8",
+        "uint16",
+        "uint32",
+        "uint64",
+        "logical",
+        "char",
+        "cell",
+        "struct",
+        "canonical empty",
+        "",
+    ];
+    !PLAIN.contains(&class)
+}
