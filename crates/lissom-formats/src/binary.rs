@@ -4,6 +4,8 @@ use crate::format_error::FormatError;
 #[cfg(feature = "hdf5")]
 use crate::hdf5;
 use crate::log_data::LogData;
+#[cfg(feature = "mcap")]
+use crate::mcap;
 use crate::{matlab, numpy, tdms, uff58, wpilog, zip};
 
 /// A binary format.
@@ -23,6 +25,8 @@ const BINARY: &[Binary] = &[
     Binary { begins: |bytes| bytes.starts_with(hdf5::HDF5), read: hdf5::read },
     #[cfg(feature = "hdf5")]
     Binary { begins: |bytes| bytes.starts_with(matlab::MATLAB_73), read: matlab::read_v73 },
+    #[cfg(feature = "mcap")]
+    Binary { begins: |bytes| bytes.starts_with(mcap::MCAP), read: mcap::read },
     Binary { begins: matlab::begins_v4, read: matlab::read_v4 },
 ];
 

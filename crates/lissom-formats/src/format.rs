@@ -32,6 +32,8 @@ pub enum Format {
     Uff58,
     /// HDF5 file.
     Hdf5,
+    /// MCAP file.
+    Mcap,
 }
 
 impl Format {
@@ -48,6 +50,7 @@ impl Format {
             Self::Tdms => "TDMS file",
             Self::Uff58 => "universal file",
             Self::Hdf5 => "HDF5 file",
+            Self::Mcap => "MCAP file",
             Self::WpiLog => "WPILib log",
             Self::Npz => "NumPy archive",
         }
@@ -64,7 +67,7 @@ pub(crate) fn foreign(bytes: &[u8]) -> Option<(&'static str, &'static str)> {
         (b"\x89HDF\r\n\x1a\n", "an HDF5 file (MATLAB v7.3 files are such files)", HDF5),
         (b"MATLAB 7.", "a MATLAB file of version 7.3 (HDF5)", MATLAB),
         (ZIP, "a ZIP archive without NumPy arrays (xlsx files are such archives)", ARCHIVE),
-        (b"\x89MCAP0\r\n", "an MCAP file", AS_CSV),
+        (b"\x89MCAP0\r\n", "an MCAP file", MCAP),
         (b"PAR1", "a Parquet file", "in Python: pandas.read_parquet(FILE).to_csv(\"log.csv\")"),
         (b"SQLite format 3\0", "an SQLite database (ROS 2 bags .db3 are such)", BAG),
         (
@@ -90,7 +93,7 @@ pub(crate) fn foreign(bytes: &[u8]) -> Option<(&'static str, &'static str)> {
     const HDF5: &str = full_or!("HDF5 files", "export the channels as CSV");
     const MATLAB: &str =
         full_or!("HDF5 files", "in MATLAB: load(FILE); save(\"log.mat\", \"-v7\")");
-    const AS_CSV: &str = "export the channels as CSV";
+    const MCAP: &str = full_or!("MCAP files", "export the topics as CSV");
     const ARCHIVE: &str = "unpack it, or save the table as CSV";
     const BAG: &str = "convert the bag to MCAP or export the topics as CSV";
     const PICKLE: &str = "pickles can run programs and are never loaded; in Python: \

@@ -15,6 +15,7 @@
 //! | UFF, UNV | time responses in datasets 58 and 58b, each with its own clock |
 //! | MATLAB v7.3 (feature `hdf5`) | as the earlier versions |
 //! | HDF5 (feature `hdf5`) | datasets of numbers with the path of their groups, compound types by field, units in attributes |
+//! | MCAP (feature `mcap`) | messages of ROS 2 and in JSON: each number of a topic, with its clock |
 //!
 //! The feature `full` has all formats. Without its feature, a format is recognised, and the error states the way out.
 //!
@@ -34,6 +35,8 @@ mod hdf5;
 mod json;
 mod log_data;
 mod matlab;
+#[cfg(feature = "mcap")]
+mod mcap;
 mod number;
 mod numpy;
 mod read;

@@ -79,6 +79,34 @@ impl Number {
         }
     }
 
+    /// The number at the beginning of the bytes.
+    #[cfg(feature = "mcap")]
+    pub(crate) fn value(self, bytes: &[u8]) -> Option<f64> {
+        macro_rules! of {
+            ($number:ty) => {{
+                let bytes = *bytes.first_chunk()?;
+                if self.big_endian {
+                    <$number>::from_be_bytes(bytes) as f64
+                } else {
+                    <$number>::from_le_bytes(bytes) as f64
+                }
+            }};
+        }
+        Some(match self.kind {
+            NumberType::I8 => of!(i8),
+            NumberType::I16 => of!(i16),
+            NumberType::I32 => of!(i32),
+            NumberType::I64 => of!(i64),
+            NumberType::U8 => of!(u8),
+            NumberType::U16 => of!(u16),
+            NumberType::U32 => of!(u32),
+            NumberType::U64 => of!(u64),
+            NumberType::F32 => of!(f32),
+            NumberType::F64 => of!(f64),
+            NumberType::F16 | NumberType::Ticks { .. } => return None,
+        })
+    }
+
     fn i64(self, bytes: [u8; 8]) -> i64 {
         if self.big_endian { i64::from_be_bytes(bytes) } else { i64::from_le_bytes(bytes) }
     }

@@ -16,7 +16,8 @@ const CHANGES: [u8; 3] = [0x01, 0x80, 0xff];
 fn is_read(path: &Path) -> bool {
     let name = path.to_str().unwrap();
     let needs = |ends: &[&str]| ends.iter().any(|end| name.ends_with(end));
-    cfg!(feature = "hdf5") || !needs(&[".h5", "_v73.mat"])
+    (cfg!(feature = "hdf5") || !needs(&[".h5", "_v73.mat"]))
+        && (cfg!(feature = "mcap") || !needs(&[".mcap"]))
 }
 
 fn samples() -> Vec<(PathBuf, Vec<u8>)> {
