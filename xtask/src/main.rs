@@ -179,7 +179,10 @@ fn test(context: &Context) -> Result<(), Failure> {
     log.pass_to(&mut command)?;
     let outcome = run("tests and doctests", &mut command);
     println!("{}", log.read()?);
-    outcome
+    outcome?;
+    // In a build of its own, so that the tests before see the default build.
+    let formats = ["test", "--package", "lissom-formats", "--features", "full"];
+    run("formats of the full build", &mut cargo(&context.root, &formats))
 }
 
 /// Writes the schemas in `docs/` from the types; a test fails if they differ.
