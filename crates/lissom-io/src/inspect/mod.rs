@@ -1,6 +1,6 @@
 //! A look at a log before anything is known about it: channels, units, clock, and which channel is probably what.
 //!
-//! [`inspect`] reads a log of any format and describes its channels. [`Roles::guessed`] says which channel is probably
+//! [`inspect`] reads a log of any format and describes its channels. [`Roles`] says which channel is probably
 //! the time, the command and the motor, and why. [`CampaignDraft`] makes a `campaign.toml` of that and of what the user
 //! says; units come from the file or from the user, never from a guess.
 
