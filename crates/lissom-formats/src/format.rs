@@ -1,7 +1,5 @@
 //! Formats, recognised by the first bytes of a file.
 
-use crate::binary;
-use crate::bytes::{GZIP, ZSTD};
 use crate::zip::ZIP;
 
 /// Format of a log file.
@@ -99,13 +97,4 @@ pub(crate) fn foreign(bytes: &[u8]) -> Option<(&'static str, &'static str)> {
     const PICKLE: &str = "pickles can run programs and are never loaded; in Python: \
                           pandas.DataFrame(DATA).to_csv(\"log.csv\")";
     KNOWN.into_iter().find(|(first, ..)| bytes.starts_with(first)).map(|(_, name, way)| (name, way))
-}
-
-/// Whether the first bytes of a file show that it is not a plain table: compressed, a trace of CODESYS, binary, or a format
-/// that is recognised and not read.
-pub fn is_no_plain_table(first: &[u8]) -> bool {
-    let begins = [GZIP, ZSTD, b"[key]"];
-    begins.iter().any(|begin| first.starts_with(begin))
-        || binary::is_recognised(first)
-        || foreign(first).is_some()
 }

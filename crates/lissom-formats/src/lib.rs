@@ -46,7 +46,7 @@ mod uff58;
 mod wpilog;
 mod zip;
 
-pub use format::{Format, is_no_plain_table};
+pub use format::Format;
 pub use format_error::FormatError;
 pub use log_data::{Channel, Clock, LogData};
-pub use read::{read, read_bytes};
+pub use read::{is_no_plain_table, read, read_bytes};

@@ -2,6 +2,7 @@
 
 use std::path::Path;
 
+use crate::bytes::{GZIP, ZSTD};
 use crate::format::foreign;
 use crate::format_error::FormatError;
 use crate::log_data::LogData;
@@ -38,4 +39,13 @@ fn of_expanded(bytes: &[u8]) -> Result<LogData, FormatError> {
         return Ok(found);
     }
     text::read(&text)
+}
+
+/// Whether the first bytes of a file show that it is not a plain table: compressed, a trace of CODESYS, binary, or a format
+/// that is recognised and not read.
+pub fn is_no_plain_table(first: &[u8]) -> bool {
+    let begins = [GZIP, ZSTD, b"[key]"];
+    begins.iter().any(|begin| first.starts_with(begin))
+        || binary::is_recognised(first)
+        || foreign(first).is_some()
 }

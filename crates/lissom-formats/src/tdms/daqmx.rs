@@ -1,6 +1,6 @@
 //! Raw data of NI-DAQmx: rows of bytes, one buffer for each device, in which scalers state the places of the channels.
 
-use super::metadata::{RawIndex, RawType};
+use super::raw_index::{RawIndex, RawType};
 use super::{Object, Objects, SCALERS};
 use crate::collected::Collected;
 use crate::cursor::Cursor;

@@ -5,11 +5,13 @@
 mod daqmx;
 mod metadata;
 mod raw_data;
+mod raw_index;
 mod scale;
 
 use std::collections::HashMap;
 
-use metadata::{Property, RawIndex};
+use metadata::Property;
+use raw_index::RawIndex;
 
 use crate::collected::{Collected, LeftOut};
 use crate::cursor::Cursor;

@@ -1,6 +1,6 @@
 //! Raw data of TDMS segments.
 
-use super::metadata::{RawIndex, RawType};
+use super::raw_index::{RawIndex, RawType};
 use super::{COMPLEX, IS_BIG_ENDIAN, IS_INTERLEAVED, Object, Objects, Segment, daqmx};
 use crate::collected::Collected;
 use crate::format_error::FormatError;

@@ -111,7 +111,7 @@ impl Header {
         for _ in 0..2 {
             lines.next()?;
         }
-        let float = |from: usize| super::values::number(columns(form, from, 13).as_bytes());
+        let float = |from: usize| super::fortran_number::number(columns(form, from, 13).as_bytes());
         Some(Self {
             first_line,
             function: integer(response, 0, 5)?,

@@ -3,6 +3,7 @@
 //! A channel is named after its response: entity, node and direction as in `arm/5+Z`; otherwise after the label of its axis
 //! or the first line of the dataset.
 
+mod fortran_number;
 mod header;
 mod values;
 

@@ -6,7 +6,8 @@ use std::path::{Path, PathBuf};
 use lissom_formats::Format;
 
 use super::draft_error::DraftError;
-use super::inspection::{InspectedChannel, Inspection};
+use super::inspected_channel::InspectedChannel;
+use super::inspection::Inspection;
 use super::roles::Role;
 use super::stated_unit::UnitSource;
 use super::user_choice::{Choice, CommandKey, quoted};

@@ -2,16 +2,14 @@
 
 use std::path::{Path, PathBuf};
 
-use lissom_formats::{Clock, Format, LogData, read};
+use lissom_formats::{Format, LogData, read};
 
-use super::channel_facts::ChannelFacts;
 use super::clock_facts::ClockFacts;
+use super::inspected_channel::InspectedChannel;
 use super::relations::{MOST_CHANNELS, Relation, relation};
 use super::roles::{Guess, Role, Roles, looks_like_time};
-use super::stated_unit::{StatedUnit, stated_unit};
 use crate::io_error::Error;
 use crate::log::LogError;
-use crate::units::Dimension;
 
 /// Share by which the factor of a rate may differ from that of the stated units.
 const UNITS_AGREE: f64 = 0.1;
@@ -39,42 +37,6 @@ pub struct Inspection {
     pub data: LogData,
 }
 
-/// A channel, described by itself.
-#[derive(Debug, Clone)]
-pub struct InspectedChannel {
-    /// Number of the channel, from 1, as a `campaign.toml` counts.
-    pub number: usize,
-    /// Its name; empty if the file has no names.
-    pub name: String,
-    /// Its unit, as the file states it.
-    pub unit: Option<StatedUnit>,
-    /// What its values show.
-    pub facts: ChannelFacts,
-    /// How it follows from another channel.
-    pub relation: Option<Relation>,
-    /// Index of the channel with its time stamps, where the format says so.
-    pub time: Option<usize>,
-    /// The first cell that is not a number: row and text.
-    pub not_a_number: Option<(usize, String)>,
-}
-
-impl InspectedChannel {
-    /// Its name, or `column 3` if it has none.
-    pub fn label(&self) -> String {
-        if self.name.is_empty() { format!("column {}", self.number) } else { self.name.clone() }
-    }
-
-    /// Dimension of its unit, if it is known.
-    pub fn dimension(&self) -> Option<Dimension> {
-        self.unit.as_ref()?.known.map(|(_, dimension)| dimension)
-    }
-
-    /// Size of its unit in SI, if it is known.
-    pub(super) fn size(&self) -> Option<f64> {
-        self.unit.as_ref()?.known.map(|(size, _)| size)
-    }
-}
-
 /// Reads a log of any format and describes it.
 ///
 /// # Errors
@@ -86,8 +48,9 @@ pub fn inspect(path: &Path) -> Result<Inspection, Error> {
 }
 
 fn of_data(path: &Path, data: LogData) -> Inspection {
+    let all = data.channels.iter().enumerate();
     let mut channels: Vec<InspectedChannel> =
-        data.channels.iter().enumerate().map(described).collect();
+        all.map(|(k, channel)| InspectedChannel::of(k, channel)).collect();
     let stamps = looks_like_time(&channels, &data);
     let time = stamps.as_ref().map(|guess| guess.channel);
     relate(&mut channels, &data, time);
@@ -104,21 +67,6 @@ fn of_data(path: &Path, data: LogData) -> Inspection {
         roles,
         notes,
         data,
-    }
-}
-
-fn described((k, channel): (usize, &lissom_formats::Channel)) -> InspectedChannel {
-    InspectedChannel {
-        number: k + 1,
-        name: channel.name.trim().trim_start_matches(['#', '%', ' ']).to_owned(),
-        unit: stated_unit(channel),
-        facts: ChannelFacts::of(&channel.values),
-        relation: None,
-        time: match channel.clock {
-            Clock::Channel(time) => Some(time),
-            Clock::Unstated | Clock::Even { .. } => None,
-        },
-        not_a_number: channel.not_a_number.clone(),
     }
 }
 

@@ -2,7 +2,8 @@
 
 use serde::{Deserialize, Serialize};
 
-use super::inspection::{InspectedChannel, Inspection};
+use super::inspected_channel::InspectedChannel;
+use super::inspection::Inspection;
 use super::relations::Relation;
 use super::stated_unit::UnitSource;
 

@@ -8,6 +8,7 @@ mod channel_facts;
 mod clock_facts;
 mod draft;
 mod draft_error;
+mod inspected_channel;
 mod inspection;
 mod inspection_file;
 mod relations;
@@ -20,7 +21,8 @@ pub use channel_facts::ChannelFacts;
 pub use clock_facts::ClockFacts;
 pub use draft::{CampaignDraft, Description};
 pub use draft_error::DraftError;
-pub use inspection::{InspectedChannel, Inspection, inspect};
+pub use inspected_channel::InspectedChannel;
+pub use inspection::{Inspection, inspect};
 pub use inspection_file::{
     ClockEntry, InspectedChannelEntry, InspectedLogEntry, InspectionFile, RoleEntry,
 };

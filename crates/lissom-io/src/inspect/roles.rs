@@ -6,7 +6,7 @@
 use lissom_formats::LogData;
 
 use super::clock_facts::ClockFacts;
-use super::inspection::InspectedChannel;
+use super::inspected_channel::InspectedChannel;
 use super::relations::Relation;
 use super::words::words;
 use crate::units::Dimension;
