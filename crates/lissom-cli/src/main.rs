@@ -1,7 +1,8 @@
 //! The command `lissom`: parse, call the library, print.
 //!
 //! Exit codes: 0 done, 1 the input cannot be used, 2 wrong usage, 3 done but the verdict refuses a
-//! figure asked for or a wish of a plan cannot be met, 4 stopped by Ctrl-C or a time limit, with the best result so far
+//! figure asked for or a wish of a plan cannot be met, 5 a
+//! parameter is outside its limits, 4 stopped by Ctrl-C or a time limit, with the best result so far
 //! (130 after a second Ctrl-C, without one).
 
 mod args;
@@ -16,9 +17,9 @@ use clap::Parser as _;
 
 use crate::args::command_line::{Cli, Command};
 use crate::commands::{
-    compare_command, completions_command, demo, equivalent, export_command, identify_command,
-    init_command, inspect_command, man_command, model_command, payload_command, plan,
-    report_figures, rig, thresholds_command, validate_command,
+    check_command, compare_command, completions_command, demo, equivalent, export_command,
+    identify_command, init_command, inspect_command, man_command, model_command, payload_command,
+    plan, report_figures, rig, thresholds_command, validate_command,
 };
 use crate::views::printer;
 
@@ -28,6 +29,7 @@ fn main() -> ExitCode {
         Command::Init(args) => init_command::run(&args),
         Command::Identify(args) => identify_command::run(&args),
         Command::Validate(args) => validate_command::run(&args),
+        Command::Check(args) => check_command::run(&args),
         Command::Compare(args) => compare_command::run(&args),
         Command::Export(args) => export_command::run(&args),
         Command::Equivalent(args) => equivalent::run(&args),

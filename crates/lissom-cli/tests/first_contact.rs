@@ -249,3 +249,48 @@ fn inspect_and_init() {
     let (code, _, error) = lissom(folder.path(), &["identify", "other.toml", "--quick"]);
     assert!(matches!(code, Some(0 | 3)), "{error}");
 }
+
+#[test]
+fn a_log_is_checked_against_limits() {
+    let (folder, rows) = simulated();
+    let at = folder.path();
+    std::fs::create_dir(at.join("drive-17")).unwrap();
+    let row = |r: &[f64; 3]| format!("{},{},{}", r[0], r[1], r[2]);
+    let log = format!("t,i_cmd,q\ns,A,rad\n{}", lines(&rows, row));
+    std::fs::write(at.join("drive-17/0815.csv"), log).unwrap();
+    let limits = |coulomb: &str| {
+        format!(
+            "path = \"{{machine}}/{{time}}.csv\"\n[[limits]]\nparameter = \"friction.coulomb_nm\"\n{coulomb}\n\
+             [[limits]]\nparameter = \"drive.inertia_kg_m2\"\nmin = 0.01\nmax = 0.02\n"
+        )
+    };
+    let check = |coulomb: &str, more: &[&str]| {
+        std::fs::write(at.join("limits.toml"), limits(coulomb)).unwrap();
+        let given = ["check", "drive-17/0815.csv", "--limits", "limits.toml", "--quick"];
+        lissom(at, &[&given, more].concat())
+    };
+    let constant = ["--torque-constant", "0.5 N*m/A"];
+    let (code, shown, error) = check("max = 0.3", &constant);
+    assert_eq!(code, Some(0), "{shown}{error}");
+    assert!(shown.contains("machine: drive-17") && shown.contains("time: 0815"), "{shown}");
+    let (code, json, _) = check("max = 0.2", &[&constant[..], &["--json"]].concat());
+    assert_eq!(code, Some(5), "{json}");
+    let found: Value = serde_json::from_str(&json).unwrap();
+    let mut schema = SchemaCheck::new(
+        include_str!("../../../docs/src/reference/schemas/check.schema.json"),
+        "check",
+    );
+    schema.look_at(&found);
+    assert_eq!(found["parameters"][0]["outcome"], "fail");
+    assert_eq!(found["parameters"][1]["outcome"], "pass");
+    // The interval contains the limit.
+    let value = found["parameters"][0]["value"].as_f64().unwrap();
+    let (code, shown, _) = check(&format!("max = {value}"), &constant);
+    assert_eq!(code, Some(3), "{shown}");
+    let (code, _, error) = check("max = 0.3", &[]);
+    assert_eq!(code, Some(1));
+    assert!(error.contains("has no parameter \"friction.coulomb_nm\""), "{error}");
+    let (code, _, error) = check("min = 0.4\nmax = 0.3", &constant);
+    assert_eq!(code, Some(1));
+    assert!(error.contains("limits.toml"), "{error}");
+}

@@ -12,6 +12,7 @@
 //!   [`FiguresFile`] are estimates compared with known values.
 //! - [`inspect`](mod@inspect) describes a log of which nothing is known yet, and makes a `campaign.toml` of it.
 //! - [`export`] writes models for other programs.
+//! - [`limits`] checks parameters against limits.
 //! - [`units`] reads quantities such as `"2.184 lbf*in/A"`.
 //! - [`mod@write`] writes files whole or not at all.
 //!
@@ -25,6 +26,7 @@ mod excerpt;
 pub mod export;
 pub mod inspect;
 mod io_error;
+pub mod limits;
 pub mod log;
 pub mod model;
 mod nearest;

@@ -6,6 +6,7 @@ use schemars::{JsonSchema, Schema};
 use serde_json::Value;
 
 use crate::inspect::InspectionFile;
+use crate::limits::CheckFile;
 use crate::model::ModelFile;
 use crate::planned::PlannedFile;
 use crate::result::{
@@ -17,6 +18,7 @@ use crate::rig::RigFile;
 pub fn schema_files() -> Vec<(&'static str, String)> {
     vec![
         ("result.schema.json", text::<ResultFile>("result.json of lissom identify")),
+        ("check.schema.json", text::<CheckFile>("Output of lissom check --json")),
         ("inspect.schema.json", text::<InspectionFile>("Output of lissom inspect --json")),
         ("model.schema.json", text::<ModelFile>("model.json of lissom model")),
         ("equivalent.schema.json", text::<EquivalentFile>("Output of lissom equivalent --json")),

@@ -2,6 +2,7 @@
 
 use clap::{Parser, Subcommand};
 
+use super::check_args::CheckArgs;
 use super::compare_args::CompareArgs;
 use super::completions_args::CompletionsArgs;
 use super::demo_args::DemoArgs;
@@ -37,6 +38,7 @@ Exit codes:
   3    done, but a parameter could not be identified (see the findings), or the wanted precision
        does not fit into the allowed time
   4    stopped by Ctrl-C or a time limit, with the best result so far
+  5    a parameter of `check` is outside its limits
   130  stopped by a second Ctrl-C, without a result";
 
 #[derive(Debug, Subcommand)]
@@ -49,6 +51,8 @@ pub(crate) enum Command {
     Identify(IdentifyArgs),
     /// Check a result: predict a log that was not used for it
     Validate(ValidateArgs),
+    /// Compare the parameters of a log with limits: pass or fail
+    Check(CheckArgs),
     /// Show the parameters of two or more results side by side
     Compare(CompareArgs),
     /// Write a model for python-control, MATLAB, MuJoCo, URDF or C

@@ -1,5 +1,6 @@
 //! The arguments of each subcommand, and nothing else.
 
+pub(crate) mod check_args;
 pub(crate) mod command_line;
 pub(crate) mod compare_args;
 pub(crate) mod completions_args;

@@ -1,5 +1,6 @@
 //! One module for each subcommand: it reads the inputs, calls the library, and passes the result to the views.
 
+pub(crate) mod check_command;
 pub(crate) mod compare_command;
 pub(crate) mod completions_command;
 pub(crate) mod demo;

@@ -4,6 +4,7 @@ pub(crate) mod arm_check;
 pub(crate) mod bode_plots;
 pub(crate) mod campaign_summary;
 pub(crate) mod channel_plots;
+pub(crate) mod check_table;
 pub(crate) mod compare_table;
 pub(crate) mod demo_table;
 pub(crate) mod draft_lines;
