@@ -1,11 +1,15 @@
 //! Formats that are no tables of text, recognised by their first bytes.
 
+#[cfg(not(feature = "xlsx"))]
+use crate::format::WORKBOOK;
 use crate::format_error::FormatError;
 #[cfg(feature = "hdf5")]
 use crate::hdf5;
 use crate::log_data::LogData;
 #[cfg(feature = "mcap")]
 use crate::mcap;
+#[cfg(feature = "xlsx")]
+use crate::xlsx;
 use crate::{matlab, numpy, tdms, uff58, wpilog, zip};
 
 /// A binary format.
@@ -47,10 +51,18 @@ pub(crate) fn read(bytes: &[u8]) -> Option<Result<LogData, FormatError>> {
     if !bytes.starts_with(zip::ZIP) {
         return None;
     }
-    // An archive is one of arrays by its entries, not by its first bytes.
+    // An archive is one of arrays or a workbook by its entries, not by its first bytes.
     let Some(entries) = zip::entries(bytes) else {
         let reason = "the archive ends before its directory".to_owned();
         return Some(Err(FormatError::Damaged { reason }));
     };
+    #[cfg(feature = "xlsx")]
+    if xlsx::is_workbook(&entries) {
+        return Some(xlsx::read(bytes, &entries));
+    }
+    #[cfg(not(feature = "xlsx"))]
+    if entries.iter().any(|entry| entry.name == "xl/workbook.xml") {
+        return Some(Err(WORKBOOK));
+    }
     numpy::is_npz(&entries).then(|| numpy::read_npz(bytes, &entries))
 }

@@ -1,5 +1,7 @@
 //! Formats, recognised by the first bytes of a file.
 
+#[cfg(not(feature = "xlsx"))]
+use crate::format_error::FormatError;
 use crate::zip::ZIP;
 
 /// Format of a log file.
@@ -32,6 +34,8 @@ pub enum Format {
     Hdf5,
     /// MCAP file.
     Mcap,
+    /// Excel workbook.
+    Xlsx,
 }
 
 impl Format {
@@ -49,11 +53,31 @@ impl Format {
             Self::Uff58 => "universal file",
             Self::Hdf5 => "HDF5 file",
             Self::Mcap => "MCAP file",
+            Self::Xlsx => "Excel workbook",
             Self::WpiLog => "WPILib log",
             Self::Npz => "NumPy archive",
         }
     }
 }
+
+/// The way out of a build that lacks the reader of a format.
+macro_rules! full_or {
+    ($format:literal, $way_out:literal) => {
+        concat!(
+            "this build of lissom has no reader for ",
+            $format,
+            ": install it with `--features full`, or ",
+            $way_out
+        )
+    };
+}
+
+/// A workbook in a build without the feature `xlsx`.
+#[cfg(not(feature = "xlsx"))]
+pub(crate) const WORKBOOK: FormatError = FormatError::Foreign {
+    what: "an Excel workbook",
+    way_out: full_or!("Excel workbooks", "save the sheet as CSV"),
+};
 
 /// A format that is recognised and not read, with the way out.
 pub(crate) fn foreign(bytes: &[u8]) -> Option<(&'static str, &'static str)> {
@@ -64,7 +88,7 @@ pub(crate) fn foreign(bytes: &[u8]) -> Option<(&'static str, &'static str)> {
         (b"\xFF\xD8\xFF", "a picture", NO_TABLE),
         (b"\x89HDF\r\n\x1a\n", "an HDF5 file (MATLAB v7.3 files are such files)", HDF5),
         (b"MATLAB 7.", "a MATLAB file of version 7.3 (HDF5)", MATLAB),
-        (ZIP, "a ZIP archive without NumPy arrays (xlsx files are such archives)", ARCHIVE),
+        (ZIP, "a ZIP archive without NumPy arrays", ARCHIVE),
         (b"\x89MCAP0\r\n", "an MCAP file", MCAP),
         (b"PAR1", "a Parquet file", "in Python: pandas.read_parquet(FILE).to_csv(\"log.csv\")"),
         (b"SQLite format 3\0", "an SQLite database (ROS 2 bags .db3 are such)", BAG),
@@ -77,17 +101,6 @@ pub(crate) fn foreign(bytes: &[u8]) -> Option<(&'static str, &'static str)> {
         (b"\x80", "a Python pickle", PICKLE),
     ];
     const NO_TABLE: &str = "give the table of numbers as text";
-    /// Which build reads a format.
-    macro_rules! full_or {
-        ($format:literal, $way_out:literal) => {
-            concat!(
-                "this build of lissom has no reader for ",
-                $format,
-                ": install it with `--features full`, or ",
-                $way_out
-            )
-        };
-    }
     const HDF5: &str = full_or!("HDF5 files", "export the channels as CSV");
     const MATLAB: &str =
         full_or!("HDF5 files", "in MATLAB: load(FILE); save(\"log.mat\", \"-v7\")");

@@ -16,6 +16,7 @@
 //! | MATLAB v7.3 (feature `hdf5`) | as the earlier versions |
 //! | HDF5 (feature `hdf5`) | datasets of numbers with the path of their groups, compound types by field, units in attributes |
 //! | MCAP (feature `mcap`) | messages of ROS 2 and in JSON: each number of a topic, with its clock |
+//! | Excel `.xlsx` (feature `xlsx`) | the sheet with the longest block of numbers, with its header and its row of units |
 //!
 //! The feature `full` has all formats. Without its feature, a format is recognised, and the error states the way out.
 //!
@@ -28,7 +29,7 @@ mod collected;
 mod cursor;
 mod format;
 mod format_error;
-#[cfg(feature = "hdf5")]
+#[cfg(any(feature = "hdf5", feature = "xlsx"))]
 mod guard;
 #[cfg(feature = "hdf5")]
 mod hdf5;
@@ -44,6 +45,8 @@ mod tdms;
 mod text;
 mod uff58;
 mod wpilog;
+#[cfg(feature = "xlsx")]
+mod xlsx;
 mod zip;
 
 pub use format::Format;

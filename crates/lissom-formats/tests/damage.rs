@@ -18,6 +18,7 @@ fn is_read(path: &Path) -> bool {
     let needs = |ends: &[&str]| ends.iter().any(|end| name.ends_with(end));
     (cfg!(feature = "hdf5") || !needs(&[".h5", "_v73.mat"]))
         && (cfg!(feature = "mcap") || !needs(&[".mcap"]))
+        && (cfg!(feature = "xlsx") || !needs(&[".xlsx"]))
 }
 
 fn samples() -> Vec<(PathBuf, Vec<u8>)> {

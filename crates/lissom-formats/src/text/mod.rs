@@ -9,6 +9,8 @@ mod table;
 mod twincat;
 
 pub(crate) use decode::decoded;
+#[cfg(feature = "xlsx")]
+pub(crate) use table::find_in_tabs;
 
 use crate::format_error::FormatError;
 use crate::log_data::LogData;

@@ -32,10 +32,23 @@ pub(crate) struct Table<'a> {
 
 /// Finds the table.
 pub(crate) fn find(text: &str) -> Option<Table<'_>> {
+    let separators = Separator::ALL.into_iter().flat_map(|s| [(s, false), (s, true)]);
+    find_separated(text, separators.filter(|found| *found != (Separator::Char(','), true)))
+}
+
+/// Finds the table in a text whose cells are separated by tabs.
+#[cfg(feature = "xlsx")]
+pub(crate) fn find_in_tabs(text: &str) -> Option<Table<'_>> {
+    find_separated(text, std::iter::once((Separator::Char('\t'), false)))
+}
+
+/// Finds the table with one of these separators, with or without a decimal comma.
+fn find_separated(
+    text: &str,
+    candidates: impl Iterator<Item = (Separator, bool)>,
+) -> Option<Table<'_>> {
     let lines: Vec<&str> = text.lines().collect();
     let ends_in_a_row = !text.ends_with(['\n', '\r']);
-    let separators = Separator::ALL.into_iter().flat_map(|s| [(s, false), (s, true)]);
-    let candidates = separators.filter(|found| *found != (Separator::Char(','), true));
     let mut best = None;
     let mut most = (false, 0);
     for (separator, decimal_comma) in candidates {
