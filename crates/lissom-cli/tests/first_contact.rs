@@ -139,16 +139,16 @@ fn what_is_missing_is_asked_for_at_once() {
     .unwrap();
     let (code, _, error) = lissom(folder.path(), &["identify", "plain.csv"]);
     assert_eq!(code, Some(1));
-    assert!(error.contains("--time t:s --current i:A --motor q:rad"), "{error}");
+    assert!(error.contains("--time t:UNIT --current i:UNIT --motor q:UNIT"), "{error}");
     let (code, _, error) = lissom(folder.path(), &["identify", "plain.csv", "--motor", "p:rad"]);
     assert_eq!(code, Some(1));
     assert!(
         error.contains("there is no channel \"p\"; the channels are \"t\", \"i\", \"q\""),
         "{error}"
     );
-    let (code, _, error) = lissom(folder.path(), &["identify", "plain.csv", "--motor", "q:grad"]);
+    let (code, _, error) = lissom(folder.path(), &["identify", "plain.csv", "--motor", "q:foo"]);
     assert_eq!(code, Some(2));
-    assert!(error.contains("grad"), "{error}");
+    assert!(error.contains("foo"), "{error}");
     let mixed = ["identify", "made/campaign.toml", "--motor", "q:rad"];
     let (code, _, error) = lissom(folder.path(), &mixed);
     assert_eq!(code, Some(1));
@@ -193,6 +193,41 @@ fn a_unit_that_the_data_contradict() {
         ),
         "{shown}"
     );
+}
+
+#[test]
+fn units_of_every_log_and_of_a_speed_count() {
+    let (folder, rows) = simulated();
+    let write = |name: &str, text: String| std::fs::write(folder.path().join(name), text).unwrap();
+    let table = |unit: &str, scale: f64| {
+        let row = |r: &[f64; 3]| format!("{},{},{}", r[0], r[1], scale * r[2]);
+        format!("t,i,q\ns,A,{unit}\n{}", lines(&rows, row))
+    };
+    write("rad.csv", table("rad", 1.0));
+    write("deg.csv", table("Grad", 180.0 / std::f64::consts::PI));
+    found(folder.path(), "deg.csv", &[]);
+    let (code, _, error) = lissom(folder.path(), &["identify", "rad.csv", "deg.csv", "--quick"]);
+    assert_eq!(code, Some(1));
+    assert!(error.contains("deg.csv: the unit of \"q\" is deg, in rad.csv it is rad"), "{error}");
+    // A set-point is not the motor; the speed is, in turns per minute.
+    let speed = rows.windows(2).map(|w| (w[1][2] - w[0][2]) / 2e-3);
+    let mut text = String::from("t [s],i [A],Position setpoint [deg],n [min^-1]\n");
+    for (row, speed) in rows.iter().zip(speed) {
+        let turns = speed * 30.0 / std::f64::consts::PI;
+        let _ = writeln!(text, "{},{},{},{turns}", row[0] + 1e-3, row[1], 50.0 * row[2]);
+    }
+    write("speed.csv", text);
+    found(folder.path(), "speed.csv", &[]);
+    // An angle in degrees under a header in rad, with a speed beside it, is refused.
+    let speed = rows.windows(2).map(|w| (w[1][2] - w[0][2]) / 2e-3);
+    let mut text = String::from("t [s],i [A],q [rad],w [rad/s]\n");
+    for (row, speed) in rows.iter().zip(speed) {
+        let _ = writeln!(text, "{},{},{},{speed}", row[0], row[1], row[2].to_degrees());
+    }
+    write("wrong.csv", text);
+    let (code, _, error) = lissom(folder.path(), &["identify", "wrong.csv", "--quick"]);
+    assert_eq!(code, Some(1), "{error}");
+    assert!(error.contains("deg"), "{error}");
 }
 
 #[test]

@@ -1,5 +1,6 @@
 //! `lissom init LOG...`.
 
+use std::path::PathBuf;
 use std::process::ExitCode;
 
 use lissom_io::write;
@@ -13,7 +14,14 @@ pub(crate) fn run(args: &InitArgs) -> Result<ExitCode, Failure> {
     if args.out.exists() {
         return Err(Failure::Exists { file: args.out.clone() });
     }
-    let found = DescribedLogs::new(&args.logs, &args.said.description())?;
+    // Files of a campaign are relative to its folder.
+    let elsewhere = args.out.parent().is_some_and(|folder| !folder.as_os_str().is_empty());
+    let whole = |log: &PathBuf| match std::path::absolute(log) {
+        Ok(path) if elsewhere => path,
+        _ => log.clone(),
+    };
+    let logs: Vec<PathBuf> = args.logs.iter().map(whole).collect();
+    let found = DescribedLogs::new(&logs, &args.said.description())?;
     let text = format!(
         "# Written by `lissom init`. Check every line: units, and whether the input is commanded or measured.\n\
          # All keys: the page campaign.toml of the book.\n\n{}",

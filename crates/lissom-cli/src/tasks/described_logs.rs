@@ -24,6 +24,9 @@ impl DescribedLogs {
         let first = logs.first().ok_or(lissom_io::Error::from(DraftError::NoLog))?;
         let log = inspect(first)?;
         let draft = CampaignDraft::new(&log, logs, said).map_err(lissom_io::Error::from)?;
+        for other in &logs[1..] {
+            log.same_units(&inspect(other)?).map_err(lissom_io::Error::from)?;
+        }
         Ok(Self { log, draft })
     }
 

@@ -195,7 +195,7 @@ fn next(log: &Inspection) {
             let options: Vec<String> = draft.missing().filter_map(DraftError::option).collect();
             line("");
             line(&format!(
-                "next, with the right units: lissom identify {file} {}",
+                "next, with units in place of UNIT: lissom identify {file} {}",
                 options.join(" ")
             ));
         }

@@ -54,6 +54,20 @@ pub enum ExportError {
         /// The joints of the file.
         joints: Vec<String>,
     },
+    /// The joint moves in another way than the axis.
+    #[error(
+        "{file}: the joint \"{joint}\" is of type \"{kind}\"; the axis of the result needs {allowed}"
+    )]
+    JointType {
+        /// The file.
+        file: String,
+        /// The name.
+        joint: String,
+        /// Its type.
+        kind: String,
+        /// The types that fit.
+        allowed: String,
+    },
     /// Several joints have that name.
     #[error("{file}: several joints are called \"{joint}\"")]
     Several {
@@ -85,7 +99,10 @@ impl ExportError {
                 }
                 Self::Read { .. } => "check the path",
                 Self::Xml { .. } => "give the file that the simulator reads",
-                Self::NoJoint { .. } | Self::Several { .. } => "give the name with --joint",
+                Self::NoJoint { .. } | Self::JointType { .. } => {
+                    "give the joint of the result's axis with --joint"
+                }
+                Self::Several { .. } => "give the joint a name of its own",
             }
             .to_owned(),
         )

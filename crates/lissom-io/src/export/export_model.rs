@@ -154,6 +154,19 @@ impl ExportModel {
         lost
     }
 
+    /// What a joint of a user's model is told: the origin, and what it cannot carry.
+    pub(super) fn merged_note(&self) -> Vec<String> {
+        let mut lines: Vec<String> = self.about().into_iter().take(1).collect();
+        lines.extend(self.lost_friction().iter().map(|lost| format!("Not in this joint: {lost}.")));
+        if self.arm.gravity.is_some() {
+            lines.push("Not in this joint: gravity of the load.".to_owned());
+        }
+        if !self.arm.modes.is_empty() {
+            lines.push("Not in this joint: the modes of the arm.".to_owned());
+        }
+        lines
+    }
+
     /// Mean viscous friction of both directions.
     pub(super) fn viscous(&self) -> f64 {
         0.5 * (self.arm.viscous_nm_s_per_rad[0] + self.arm.viscous_nm_s_per_rad[1])

@@ -7,7 +7,7 @@ use lissom_core::record::Axis;
 use super::export_error::ExportError;
 use super::export_model::ExportModel;
 use super::number_text::{number, plain};
-use super::xml_edit::{joint, parsed, with_attributes};
+use super::xml_edit::{joint, of_type, parsed, with_attributes, with_comment};
 
 /// Time step of a whole model [s].
 const STEP_S: f64 = 1e-4;
@@ -27,12 +27,23 @@ pub fn mjcf_into(
     model.needs_torque("MuJoCo")?;
     let document = parsed(file, text)?;
     let found = joint(file, &document, name)?;
+    let kind = match model.names.axis {
+        Axis::Rotary => "hinge",
+        Axis::Linear => "slide",
+    };
+    of_type(file, &found, "hinge", &[kind])?;
     let set = [
         ("armature", number(model.arm.inertia_kg_m2)),
         ("damping", number(model.viscous())),
         ("frictionloss", number(model.arm.coulomb_nm)),
     ];
-    Ok(with_attributes(text, found.node, &set))
+    let mut about = model.merged_note();
+    about.push(
+        "armature is the inertia of all that turned in the logs: give bodies on this joint no inertia that is in it already."
+            .to_owned(),
+    );
+    let changed = with_attributes(text, found.node, &set);
+    Ok(with_comment(&changed, found.node.range().start, &about))
 }
 
 /// A whole model: the motor as a joint with friction, and each mode of the beam as an inertia on the same axis that a

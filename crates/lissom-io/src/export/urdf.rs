@@ -1,9 +1,11 @@
 //! URDF: `dynamics` of a joint in a user's robot.
 
+use lissom_core::record::Axis;
+
 use super::export_error::ExportError;
 use super::export_model::ExportModel;
 use super::number_text::number;
-use super::xml_edit::{joint, parsed, with_attributes, with_child};
+use super::xml_edit::{joint, of_type, parsed, with_attributes, with_child, with_comment};
 
 /// The text of a user's robot in which the joint has damping and friction of the arm. URDF has no inertia of the motor.
 ///
@@ -20,10 +22,21 @@ pub fn urdf_into(
     let found = joint(file, &document, name)?;
     let (damping, friction) = (number(model.viscous()), number(model.arm.coulomb_nm));
     let dynamics = found.node.children().find(|n| n.has_tag_name("dynamics"));
-    Ok(if let Some(node) = dynamics {
+    let allowed: &[&str] = match model.names.axis {
+        Axis::Rotary => &["revolute", "continuous"],
+        Axis::Linear => &["prismatic"],
+    };
+    of_type(file, &found, "not stated", allowed)?;
+    let changed = if let Some(node) = dynamics {
         with_attributes(text, node, &[("damping", damping), ("friction", friction)])
     } else {
         let child = format!("<dynamics damping=\"{damping}\" friction=\"{friction}\"/>");
         with_child(text, found.node, &child)
-    })
+    };
+    let mut about = model.merged_note();
+    about.push(format!(
+        "Not in URDF: inertia of the motor's side, {}.",
+        number(model.arm.inertia_kg_m2)
+    ));
+    Ok(with_comment(&changed, found.node.range().start, &about))
 }

@@ -3,6 +3,7 @@
 use roxmltree::{Document, Node};
 
 use super::export_error::ExportError;
+use super::number_text::plain;
 
 /// A joint in an XML text.
 pub(super) struct Joint<'a, 'input> {
@@ -25,7 +26,7 @@ pub(super) fn joint<'a, 'input>(
     let joints = || {
         document.descendants().filter(|n| n.has_tag_name("joint")).filter(|n| {
             !n.ancestors().any(|a| {
-                ["default", "tendon", "actuator", "equality", "sensor"]
+                ["default", "tendon", "actuator", "equality", "sensor", "transmission", "gazebo"]
                     .iter()
                     .any(|t| a.has_tag_name(*t))
             })
@@ -62,6 +63,31 @@ pub(super) fn with_attributes(text: &str, node: Node<'_, '_>, set: &[(&str, Stri
 
 fn format_attribute(name: &str, value: &str) -> String {
     format!(" {name}=\"{value}\"")
+}
+
+/// The text with a comment at a place.
+pub(super) fn with_comment(text: &str, at: usize, lines: &[String]) -> String {
+    let comment = format!("<!-- {} -->\n", plain(&lines.join(" ")));
+    edited(text, vec![(at..at, comment)])
+}
+
+/// Refuses a joint of another type than the axis.
+pub(super) fn of_type(
+    file: &str,
+    found: &Joint<'_, '_>,
+    missing: &'static str,
+    allowed: &[&'static str],
+) -> Result<(), ExportError> {
+    let kind = found.node.attribute("type").unwrap_or(missing);
+    if allowed.contains(&kind) {
+        return Ok(());
+    }
+    Err(ExportError::JointType {
+        file: file.to_owned(),
+        joint: found.node.attribute("name").unwrap_or_default().to_owned(),
+        kind: kind.to_owned(),
+        allowed: allowed.join(" or "),
+    })
 }
 
 /// The place after the name of an element in its start tag.

@@ -8,6 +8,7 @@ use lissom_formats::Format;
 use super::draft_error::DraftError;
 use super::inspected_channel::InspectedChannel;
 use super::inspection::Inspection;
+use super::relations::Relation;
 use super::roles::Role;
 use super::stated_unit::UnitSource;
 use super::user_choice::{Choice, CommandKey, quoted};
@@ -286,13 +287,20 @@ impl<'a> Signals<'a> {
     /// The line for a channel, or what is missing.
     fn line(&self, key: &str, role: Role, picked: &Picked<'_>, more: &[(&str, String)]) -> Line {
         match self.table(role, picked, more) {
-            Ok((table, _)) => {
+            Ok((table, unit)) => {
                 let text = format!("{key} = {table}");
                 let unit_from = picked.channel.unit.as_ref().map(|u| u.source);
                 let unit_said = picked.choice.is_some_and(|c| c.unit.is_some());
                 let of_name = !unit_said && unit_from == Some(UnitSource::Name);
-                let unit_why = if of_name { "the unit is the end of its name" } else { "" };
-                let whys = picked.why.iter().map(String::as_str).chain([unit_why]);
+                let stated = picked.channel.unit.as_ref().filter(|u| u.known.is_some());
+                let unit_why = match stated {
+                    _ if of_name => "the unit is the end of its name".to_owned(),
+                    Some(stated) if unit_said && stated.text != unit => {
+                        format!("the option says {unit}, the log {}", stated.text)
+                    }
+                    _ => String::new(),
+                };
+                let whys = picked.why.iter().map(String::as_str).chain([unit_why.as_str()]);
                 let why = whys.filter(|w| !w.is_empty()).collect::<Vec<_>>().join("; ");
                 if why.is_empty() { Line::said(text) } else { Line::taken(text, why) }
             }
@@ -410,8 +418,23 @@ impl<'a> Signals<'a> {
     }
 
     fn speed(&self) -> Result<Option<Line>, DraftError> {
-        let Some(choice) = &self.said.speed else { return Ok(None) };
-        Ok(Some(self.line("speed", Role::Speed, &self.named(choice)?, &[])))
+        if let Some(choice) = &self.said.speed {
+            return Ok(Some(self.line("speed", Role::Speed, &self.named(choice)?, &[])));
+        }
+        // A channel that is the rate of the motor's checks its unit and that of the time stamps.
+        let Ok(motor) = self.pick(Role::Motor, self.said.motor.as_ref())? else { return Ok(None) };
+        let Some(guess) = self.log.roles.of(Role::Speed) else { return Ok(None) };
+        let channel = &self.log.channels[guess.channel];
+        let rate_of = match channel.relation {
+            Some(Relation::Rate { of, .. }) => Some(of + 1),
+            _ => None,
+        };
+        if rate_of != Some(motor.channel.number) || channel.size().is_none() {
+            return Ok(None);
+        }
+        let why = format!("it is the rate of {}: compared with it", motor.channel.label());
+        let picked = Picked { channel, why: Some(why), choice: None };
+        Ok(Some(self.line("speed", Role::Speed, &picked, &[])))
     }
 
     fn tips(&self) -> Result<Option<Line>, DraftError> {

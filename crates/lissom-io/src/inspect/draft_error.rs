@@ -70,6 +70,18 @@ pub enum DraftError {
         /// A unit that the file states and that is not known.
         stated: Option<String>,
     },
+    /// A channel has another unit in another log.
+    #[error("{file}: the unit of \"{channel}\" is {unit}, {of_first}")]
+    OtherUnit {
+        /// The log.
+        file: String,
+        /// The channel.
+        channel: String,
+        /// Its unit there.
+        unit: String,
+        /// Its unit in the first log, in words.
+        of_first: String,
+    },
     /// Several things are missing.
     #[error("{file}: {}", joined(.file, .missing))]
     Incomplete {
@@ -145,7 +157,7 @@ impl DraftError {
         }
     }
 
-    /// The option that says it, with an example of a unit.
+    /// The option that says it; `UNIT` stands for the unit, which only the user knows.
     pub fn option(&self) -> Option<String> {
         let quoted = |name: &str, unit: &str| {
             let said = format!("{name}:{unit}");
@@ -157,22 +169,26 @@ impl DraftError {
             Self::NoUnit { role, name, .. } => (role, Some(name.as_str())),
             _ => return None,
         };
-        let (option, example, unit) = match role {
-            Role::Time => ("time", "COLUMN", "s"),
-            Role::Current => ("current", "COLUMN", "A"),
-            Role::Torque => ("command", "COLUMN", "N*m"),
-            Role::Voltage => ("voltage", "COLUMN", "V"),
-            Role::Motor => ("motor", "COLUMN", "rad"),
-            Role::Speed => ("speed", "COLUMN", "rpm"),
-            Role::Tip => ("tip", "COLUMN", "rad"),
+        let option = match role {
+            Role::Time => "time",
+            Role::Current => "current",
+            Role::Torque => "command",
+            Role::Voltage => "voltage",
+            Role::Motor => "motor",
+            Role::Speed => "speed",
+            Role::Tip => "tip",
         };
-        Some(format!("--{option} {}", quoted(name.unwrap_or(example), unit)))
+        Some(format!("--{option} {}", quoted(name.unwrap_or("COLUMN"), "UNIT")))
     }
 
     /// What the user can do.
     pub fn hint(&self) -> Option<String> {
         match self {
             Self::NoLog => None,
+            Self::OtherUnit { .. } => Some(
+                "identify logs with different units apart, or bring them to the same units"
+                    .to_owned(),
+            ),
             Self::Choice { .. } => {
                 Some("write COLUMN:UNIT, as in q:deg, or counts:rad,scale=0.001534".to_owned())
             }
@@ -192,7 +208,10 @@ impl DraftError {
 }
 
 fn with_right_units(options: Option<String>) -> String {
-    format!("state it with the right unit, as in: {}", options.unwrap_or_default())
+    format!(
+        "state it, with units such as s, ms, A, mA, rad, deg, rpm in place of UNIT: {}",
+        options.unwrap_or_default()
+    )
 }
 
 /// Other ways to say what has this role.

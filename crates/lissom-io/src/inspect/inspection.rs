@@ -5,6 +5,7 @@ use std::path::{Path, PathBuf};
 use lissom_formats::{Format, LogData, read};
 
 use super::clock_facts::ClockFacts;
+use super::draft_error::DraftError;
 use super::inspected_channel::InspectedChannel;
 use super::relations::{MOST_CHANNELS, Relation, relation};
 use super::roles::{Guess, Role, Roles, looks_like_time};
@@ -133,6 +134,33 @@ fn contradictions(
 }
 
 impl Inspection {
+    /// Refuses another log in which a channel of the same name has another unit.
+    ///
+    /// # Errors
+    /// [`DraftError::OtherUnit`] with the first such channel.
+    pub fn same_units(&self, other: &Self) -> Result<(), DraftError> {
+        let text = |c: &InspectedChannel| c.unit.as_ref().map(|u| u.text.clone());
+        for channel in self.channels.iter().filter(|c| !c.name.is_empty()) {
+            let Some(same) = other.channels.iter().find(|c| c.name == channel.name) else {
+                continue;
+            };
+            let (unit, of_other) = (text(channel), text(same));
+            if unit != of_other {
+                return Err(DraftError::OtherUnit {
+                    file: other.file.display().to_string(),
+                    channel: channel.name.clone(),
+                    unit: of_other.unwrap_or_else(|| "none".to_owned()),
+                    of_first: format!(
+                        "in {} it is {}",
+                        self.file.display(),
+                        unit.unwrap_or_else(|| "none".to_owned())
+                    ),
+                });
+            }
+        }
+        Ok(())
+    }
+
     /// The guess for a role.
     pub fn guess(&self, role: Role) -> Option<&Guess> {
         self.roles.of(role)

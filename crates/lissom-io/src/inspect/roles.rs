@@ -215,7 +215,13 @@ fn score(role: Role, channel: &InspectedChannel) -> Option<(i32, String)> {
     let other_motion = [Role::Speed, Role::Current, Role::Torque, Role::Voltage];
     let not_a_position =
         role == Role::Motor && other_motion.iter().any(|other| has(other.words()).is_some());
-    if has(&OTHERS).is_some() || not_a_position {
+    let wish = words
+        .iter()
+        .find(|w| WISHES.contains(&w.as_str()) || w.contains("soll"))
+        .map(String::as_str);
+    // What the controller wished is no motion.
+    let wished_motion = wish.is_some() && [Role::Motor, Role::Speed, Role::Tip].contains(&role);
+    if has(&OTHERS).is_some() || not_a_position || wished_motion {
         return None;
     }
     let mut points = 0;
@@ -239,7 +245,7 @@ fn score(role: Role, channel: &InspectedChannel) -> Option<(i32, String)> {
     if points == 0 {
         return None;
     }
-    if let Some(word) = has(&WISHES) {
+    if let Some(word) = wish {
         points -= WORD;
         why.push(format!("but also \"{word}\""));
     }

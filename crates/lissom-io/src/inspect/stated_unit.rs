@@ -26,7 +26,12 @@ pub enum UnitSource {
 }
 
 /// Other spellings, in small letters, and the unit.
-const SPELLINGS: [(&str, &str); 27] = [
+const SPELLINGS: [(&str, &str); 32] = [
+    ("grad", "deg"),
+    ("min^-1", "rpm"),
+    ("min-1", "rpm"),
+    ("min⁻¹", "rpm"),
+    ("1/minute", "rpm"),
     ("sec", "s"),
     ("secs", "s"),
     ("second", "s"),
@@ -96,7 +101,9 @@ pub(super) fn known_unit(text: &str) -> StatedUnit {
     let small = text.to_lowercase();
     let spelled = SPELLINGS.iter().find(|(spelling, _)| *spelling == small);
     let unit = spelled.map_or_else(|| text.to_owned(), |(_, unit)| (*unit).to_owned());
-    let known = parse_any_unit(&unit).ok();
+    // Turns or radians: the file does not say.
+    let bare_rate = ["1/s", "s^-1", "s-1", "s⁻¹"].contains(&small.as_str());
+    let known = parse_any_unit(&unit).ok().filter(|_| !bare_rate);
     StatedUnit { text: unit, source: UnitSource::File, known }
 }
 
@@ -138,5 +145,9 @@ mod tests {
         assert_eq!(known_unit("Seconds").text, "s");
         assert_eq!(known_unit("U/min").known.unwrap().1, Dimension::RATE);
         assert!(known_unit("inc").known.is_none());
+        // A degree in German, not 10⁹ rad; a rate of turns or of radians.
+        assert_eq!(known_unit("Grad").text, "deg");
+        assert_eq!(known_unit("min^-1").text, "rpm");
+        assert!(known_unit("1/s").known.is_none());
     }
 }

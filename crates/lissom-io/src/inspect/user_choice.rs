@@ -1,6 +1,7 @@
 //! What a user says about a channel: `COLUMN[:UNIT][,key=value...]`.
 
 use super::draft_error::DraftError;
+use super::stated_unit::known_unit;
 use crate::units::parse_any_unit;
 
 /// What a user says about a channel.
@@ -83,12 +84,14 @@ impl Choice {
             let reason = "there is no column".to_owned();
             return Err(DraftError::Choice { text: text.to_owned(), reason });
         }
-        if let Some(unit) = unit
+        // As people write it: `degrees`, `1/min`.
+        let unit = unit.map(|unit| known_unit(unit).text);
+        if let Some(unit) = &unit
             && let Err(source) = parse_any_unit(unit)
         {
             return Err(DraftError::Unit { text: text.to_owned(), source });
         }
-        Ok(Self { column: column.trim().to_owned(), unit: unit.map(str::to_owned), keys })
+        Ok(Self { column: column.trim().to_owned(), unit, keys })
     }
 }
 
