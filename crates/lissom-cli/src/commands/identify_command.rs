@@ -87,7 +87,7 @@ pub(crate) fn run(args: &IdentifyArgs) -> Result<ExitCode, Failure> {
 
 /// The logs, if no campaign.toml is given.
 fn described(args: &IdentifyArgs) -> Result<Option<DescribedLogs>, Failure> {
-    let campaigns = args.input.iter().filter(|path| is_toml(path)).count();
+    let campaigns = args.input.iter().filter(|path| is_toml(path) || path.is_dir()).count();
     if campaigns == 0 {
         return DescribedLogs::new(&args.input, &args.said.description()).map(Some);
     }
