@@ -97,7 +97,7 @@ fn loaded_elsewhere(root: &Path, python: &Python, folder: &Path) -> Result<(), F
     let mut write = Command::new(&python.program);
     write.arg(root.join("crates/lissom-formats/tests/external/write.py")).arg(&logs);
     run("log files of other libraries", &mut write)?;
-    let test = ["test", "--release", "--package", "lissom-formats", "--test", "external"];
+    let test = ["test", "--package", "lissom-formats", "--features", "full", "--test", "external"];
     run("these log files read", cargo(root, &test).env("LISSOM_EXTERNAL", &logs))
 }
 
