@@ -181,7 +181,7 @@ fn what_one_direction_does_not_tell_is_named() {
             && parts.contains(&ArmParameter::Coulomb)
             && parts.contains(&ArmParameter::Offset)
     );
-    // Inertia is told all the same, with the standard error of the table.
+    // Inertia is still reported, with the standard error of the table.
     let stated = id.inertia.unwrap();
     assert!((std(verdict, ArmParameter::Inertia) / (stated.std / stated.value) - 1.0).abs() < 1e-9);
 }

@@ -27,6 +27,25 @@ pub(crate) struct Number {
     pub(crate) big_endian: bool,
 }
 
+/// What `$of` makes of the Rust type of a number; other types follow as the arms of a match.
+macro_rules! by_type {
+    ($kind:expr, $of:ident, { $($others:tt)* }) => {
+        match $kind {
+            NumberType::I8 => $of!(i8),
+            NumberType::I16 => $of!(i16),
+            NumberType::I32 => $of!(i32),
+            NumberType::I64 => $of!(i64),
+            NumberType::U8 => $of!(u8),
+            NumberType::U16 => $of!(u16),
+            NumberType::U32 => $of!(u32),
+            NumberType::U64 => $of!(u64),
+            NumberType::F32 => $of!(f32),
+            NumberType::F64 => $of!(f64),
+            $($others)*
+        }
+    };
+}
+
 impl NumberType {
     /// Size of a number \[byte\].
     pub(crate) fn size(self) -> usize {
@@ -56,17 +75,7 @@ impl Number {
                 }
             };
         }
-        match self.kind {
-            NumberType::I8 => of!(i8),
-            NumberType::I16 => of!(i16),
-            NumberType::I32 => of!(i32),
-            NumberType::I64 => of!(i64),
-            NumberType::U8 => of!(u8),
-            NumberType::U16 => of!(u16),
-            NumberType::U32 => of!(u32),
-            NumberType::U64 => of!(u64),
-            NumberType::F32 => of!(f32),
-            NumberType::F64 => of!(f64),
+        by_type!(self.kind, of, {
             NumberType::Ticks { origin } => {
                 let since = |ticks: i64| ticks.wrapping_sub(origin) as f64;
                 let value = |ticks: i64| if ticks == i64::MIN { f64::NAN } else { since(ticks) };
@@ -76,7 +85,7 @@ impl Number {
                 spaced(out, bytes, stride, count, |b| half(u16::from_be_bytes(b)));
             }
             NumberType::F16 => spaced(out, bytes, stride, count, |b| half(u16::from_le_bytes(b))),
-        }
+        });
     }
 
     /// The number at the beginning of the bytes.
@@ -92,19 +101,9 @@ impl Number {
                 }
             }};
         }
-        Some(match self.kind {
-            NumberType::I8 => of!(i8),
-            NumberType::I16 => of!(i16),
-            NumberType::I32 => of!(i32),
-            NumberType::I64 => of!(i64),
-            NumberType::U8 => of!(u8),
-            NumberType::U16 => of!(u16),
-            NumberType::U32 => of!(u32),
-            NumberType::U64 => of!(u64),
-            NumberType::F32 => of!(f32),
-            NumberType::F64 => of!(f64),
+        Some(by_type!(self.kind, of, {
             NumberType::F16 | NumberType::Ticks { .. } => return None,
-        })
+        }))
     }
 
     fn i64(self, bytes: [u8; 8]) -> i64 {

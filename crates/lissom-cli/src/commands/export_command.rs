@@ -20,7 +20,7 @@ pub(crate) fn run(args: &ExportArgs) -> Result<ExitCode, Failure> {
     let inputs: Vec<&Path> =
         [Some(&args.input), args.into.as_ref()].into_iter().flatten().map(AsRef::as_ref).collect();
     output_guard::guard_inputs(Some(&args.out), &inputs)?;
-    guard(&args.out)?;
+    output_guard::guard_marked(&args.out, MARK)?;
     let model = model(&args.input)?;
     let into = args.into.as_deref().zip(args.joint.as_deref());
     if into.is_some() && !matches!(args.to, Target::Mjcf | Target::Urdf) {
@@ -66,18 +66,7 @@ pub(crate) fn run(args: &ExportArgs) -> Result<ExitCode, Failure> {
     Ok(ExitCode::SUCCESS)
 }
 
-/// Refuses to write over a file that `lissom export` did not write: all of its files name it near the beginning, and the
-/// copy of a user's model in the comment before the joint.
-fn guard(out: &Path) -> Result<(), Failure> {
-    if !out.is_file() {
-        return Ok(());
-    }
-    let own = std::fs::read(out)
-        .is_ok_and(|bytes| bytes.windows(MARK.len()).any(|part| part == MARK.as_bytes()));
-    if own { Ok(()) } else { Err(Failure::NotAnOutput { file: out.to_owned() }) }
-}
-
-/// What every exported file has.
+/// What every exported file has: the copy of a user's model in the comment before the joint.
 const MARK: &str = "by lissom";
 
 /// The model of a result, or of an arm file.

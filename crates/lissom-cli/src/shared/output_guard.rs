@@ -22,6 +22,15 @@ pub(crate) fn guard(json: Option<&Path>, report: Option<&Path>) -> Result<(), Fa
     Ok(())
 }
 
+/// Refuses to overwrite a file without the text that all outputs of its kind have.
+pub(crate) fn guard_marked(out: &Path, mark: &str) -> Result<(), Failure> {
+    let marked = |bytes: Vec<u8>| bytes.windows(mark.len()).any(|part| part == mark.as_bytes());
+    if !out.is_file() || std::fs::read(out).is_ok_and(marked) {
+        return Ok(());
+    }
+    Err(Failure::NotAnOutput { file: out.to_owned() })
+}
+
 /// Refuses to overwrite an input.
 pub(crate) fn guard_inputs(output: Option<&Path>, inputs: &[&Path]) -> Result<(), Failure> {
     let whole = |path: &Path| path.canonicalize().ok();

@@ -25,7 +25,7 @@ impl DescribedLogs {
         let log = inspect(first)?;
         let draft = CampaignDraft::new(&log, logs, said).map_err(lissom_io::Error::from)?;
         for other in &logs[1..] {
-            log.same_units(&inspect(other)?).map_err(lissom_io::Error::from)?;
+            log.same_units(other)?;
         }
         Ok(Self { log, draft })
     }

@@ -61,7 +61,7 @@ pub use options::{Effort, Options};
 pub use payload::LoadedArm;
 pub use pipeline::{IdentifyError, Stage, identify};
 pub use prepare::prepared::Prepared;
-pub use prepare::run_analysis::{RunAnalysis, RunKind, Sinusoidal};
+pub use prepare::run_analysis::{RunAnalysis, RunKind, Sinusoidal, is_possible_sample_time};
 pub use prepare::run_phasors::RunPhasors;
 pub use prepare::steady_points::SteadyPoint;
 pub use responses::correct::{Response, corrected, ratio};

@@ -223,7 +223,7 @@ impl Reader {
     }
 }
 
-/// Name of an object of a class that is not decoded; the class states what is left out.
+/// Name of an object of a class that is not decoded; the note about it names the class.
 fn opaque<'a>(cursor: &mut Cursor) -> Option<(String, Value<'a>)> {
     let name = elements::next(cursor)?.name();
     let _system = elements::next(cursor)?;

@@ -154,7 +154,7 @@ impl ExportModel {
         lost
     }
 
-    /// What a joint of a user's model is told: the origin, and what it cannot carry.
+    /// The comment at a joint of a user's model: the origin of the numbers, and what the joint cannot represent.
     pub(super) fn merged_note(&self) -> Vec<String> {
         let mut lines: Vec<String> = self.about().into_iter().take(1).collect();
         lines.extend(self.lost_friction().iter().map(|lost| format!("Not in this joint: {lost}.")));

@@ -12,7 +12,8 @@ use super::relations::Relation;
 use super::roles::Role;
 use super::stated_unit::UnitSource;
 use super::user_choice::{Choice, CommandKey, quoted};
-use super::words::words;
+use super::words::{commanded, words};
+use crate::log::bare_name;
 use crate::units::{Dimension, parse_any_unit};
 
 /// What a user says about logs. What is absent is taken from the log where it is unambiguous.
@@ -54,7 +55,7 @@ pub struct CampaignDraft {
 /// A line of a `campaign.toml`.
 #[derive(Debug, Clone, PartialEq)]
 struct Line {
-    /// The line; empty if something is missing.
+    /// The line; a line to complete if something is missing.
     text: String,
     /// Why it is there.
     why: String,
@@ -149,16 +150,21 @@ impl CampaignDraft {
         let mut text = String::new();
         for line in &self.lines {
             if let Some(missing) = &line.missing {
-                let _ = writeln!(text, "# TO DO: {missing}");
-                let _ = writeln!(text, "# {}", line.text);
+                let _ = writeln!(text, "# TO DO: {}", one_line(&missing.to_string()));
+                let _ = writeln!(text, "# {}", one_line(&line.text));
             } else if line.why.is_empty() {
                 let _ = writeln!(text, "{}", line.text);
             } else {
-                let _ = writeln!(text, "{}   # {}", line.text, line.why);
+                let _ = writeln!(text, "{}   # {}", line.text, one_line(&line.why));
             }
         }
         text
     }
+}
+
+/// A text as one line of a comment: names in a log may have line ends.
+fn one_line(text: &str) -> String {
+    text.replace(char::is_control, " ")
 }
 
 /// The table of a run, named as its file if no other file has that name.
@@ -207,7 +213,7 @@ impl<'a> Signals<'a> {
             found.next().filter(|_| found.next().is_none())
         };
         let number = || wanted.parse::<usize>().ok().and_then(|n| channels.get(n.checked_sub(1)?));
-        let bare = wanted.trim_start_matches(['#', '%', ' ']);
+        let bare = bare_name(wanted);
         let channel = by(&|name| name == bare)
             .or_else(|| by(&|name| name.rsplit('/').next() == Some(wanted)))
             .or_else(|| by(&|name| without_unit(name) == wanted))
@@ -280,8 +286,13 @@ impl<'a> Signals<'a> {
         }
     }
 
+    /// A channel as an option names it.
     fn spelled(&self, channel: &InspectedChannel) -> String {
-        self.column(channel).trim_matches('"').to_owned()
+        if self.column(channel) == channel.number.to_string() {
+            channel.number.to_string()
+        } else {
+            channel.name.clone()
+        }
     }
 
     /// The line for a channel, or what is missing.
@@ -370,20 +381,9 @@ impl<'a> Signals<'a> {
             return ("measured", None);
         }
         let words = words(&picked.channel.name);
-        let commanded = [
-            "cmd",
-            "command",
-            "commanded",
-            "ref",
-            "set",
-            "setpoint",
-            "soll",
-            "demand",
-            "target",
-            "pwm",
-            "duty",
-        ];
-        match words.iter().find(|w| commanded.contains(&w.as_str())) {
+        // A voltage that a drive puts on the winding is its command.
+        let drive = words.iter().find(|w| ["pwm", "duty"].contains(&w.as_str()));
+        match commanded(&words).or(drive.map(String::as_str)) {
             Some(word) => {
                 ("sampled", Some(format!("taken as commanded: its name has \"{word}\"")))
             }

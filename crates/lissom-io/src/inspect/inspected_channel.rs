@@ -5,6 +5,7 @@ use lissom_formats::{Channel, Clock};
 use super::channel_facts::ChannelFacts;
 use super::relations::Relation;
 use super::stated_unit::{StatedUnit, stated_unit};
+use crate::log::bare_name;
 use crate::units::Dimension;
 
 /// A channel, described by itself.
@@ -31,7 +32,7 @@ impl InspectedChannel {
     pub(super) fn of(k: usize, channel: &Channel) -> Self {
         Self {
             number: k + 1,
-            name: channel.name.trim().trim_start_matches(['#', '%', ' ']).to_owned(),
+            name: bare_name(&channel.name).to_owned(),
             unit: stated_unit(channel),
             facts: ChannelFacts::of(&channel.values),
             relation: None,

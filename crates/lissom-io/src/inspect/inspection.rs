@@ -2,20 +2,20 @@
 
 use std::path::{Path, PathBuf};
 
-use lissom_formats::{Format, LogData, read};
+use lissom_core::identify::is_possible_sample_time;
+use lissom_formats::{Channel, Format, LogData, read};
 
 use super::clock_facts::ClockFacts;
 use super::draft_error::DraftError;
 use super::inspected_channel::InspectedChannel;
 use super::relations::{MOST_CHANNELS, Relation, relation};
 use super::roles::{Guess, Role, Roles, looks_like_time};
+use super::stated_unit::{StatedUnit, stated_unit};
 use crate::io_error::Error;
-use crate::log::LogError;
+use crate::log::{LogError, bare_name};
 
 /// Share by which the factor of a rate may differ from that of the stated units.
 const UNITS_AGREE: f64 = 0.1;
-/// Sample times that no log of a drive has [s].
-pub(super) const SAMPLE_TIMES_S: [f64; 2] = [4e-6, 0.3];
 
 /// A log, described before anything is known about it.
 #[derive(Debug, Clone)]
@@ -43,9 +43,13 @@ pub struct Inspection {
 /// # Errors
 /// [`Error::Log`] if the file cannot be read, is of a format that is not read, or has no table of numbers.
 pub fn inspect(path: &Path) -> Result<Inspection, Error> {
+    Ok(of_data(path, data_of(path)?))
+}
+
+fn data_of(path: &Path) -> Result<LogData, Error> {
     let file = path.display().to_string();
     let data = read(path).map_err(|error| LogError::of_format(file, error))?;
-    Ok(of_data(path, data.with_time_stamps()))
+    Ok(data.with_time_stamps())
 }
 
 fn of_data(path: &Path, data: LogData) -> Inspection {
@@ -108,7 +112,7 @@ fn contradictions(
     let unit_s = time.and_then(|k| channels[k].size());
     if let (Some(clock), Some(unit_s), Some(k)) = (clock, unit_s, time) {
         let step_s = clock.step * unit_s;
-        if !(SAMPLE_TIMES_S[0]..SAMPLE_TIMES_S[1]).contains(&step_s) {
+        if !is_possible_sample_time(step_s) {
             notes.push(format!(
                 "with the unit of {} as stated, samples are {step_s:.3e} s apart, which no log of a drive is: the unit of \
                  the time stamps is probably another one",
@@ -137,25 +141,22 @@ impl Inspection {
     /// Refuses another log in which a channel of the same name has another unit.
     ///
     /// # Errors
-    /// [`DraftError::OtherUnit`] with the first such channel.
-    pub fn same_units(&self, other: &Self) -> Result<(), DraftError> {
-        let text = |c: &InspectedChannel| c.unit.as_ref().map(|u| u.text.clone());
+    /// [`DraftError::OtherUnit`] with the first such channel; [`Error::Log`] if the other log cannot be read.
+    pub fn same_units(&self, other: &Path) -> Result<(), Error> {
+        let text = |unit: Option<StatedUnit>| unit.map(|u| u.text);
+        let data = data_of(other)?;
         for channel in self.channels.iter().filter(|c| !c.name.is_empty()) {
-            let Some(same) = other.channels.iter().find(|c| c.name == channel.name) else {
-                continue;
-            };
-            let (unit, of_other) = (text(channel), text(same));
+            let named = |c: &&Channel| bare_name(&c.name) == channel.name;
+            let Some(same) = data.channels.iter().find(named) else { continue };
+            let (unit, of_other) = (text(channel.unit.clone()), text(stated_unit(same)));
             if unit != of_other {
-                return Err(DraftError::OtherUnit {
-                    file: other.file.display().to_string(),
+                let stated = |unit: Option<String>| unit.unwrap_or_else(|| "not stated".to_owned());
+                return Err(Error::Draft(DraftError::OtherUnit {
+                    file: other.display().to_string(),
                     channel: channel.name.clone(),
-                    unit: of_other.unwrap_or_else(|| "none".to_owned()),
-                    of_first: format!(
-                        "in {} it is {}",
-                        self.file.display(),
-                        unit.unwrap_or_else(|| "none".to_owned())
-                    ),
-                });
+                    unit: stated(of_other),
+                    of_first: format!("in {} it is {}", self.file.display(), stated(unit)),
+                }));
             }
         }
         Ok(())

@@ -8,7 +8,7 @@ use lissom_formats::LogData;
 use super::clock_facts::ClockFacts;
 use super::inspected_channel::InspectedChannel;
 use super::relations::Relation;
-use super::words::words;
+use super::words::{commanded, words};
 use crate::units::Dimension;
 
 /// Role of a channel.
@@ -120,25 +120,6 @@ impl Role {
     }
 }
 
-/// Words that name a wish of the controller, not what the drive did.
-const WISHES: [&str; 16] = [
-    "ref",
-    "reference",
-    "set",
-    "setpoint",
-    "soll",
-    "cmd",
-    "command",
-    "commanded",
-    "des",
-    "desired",
-    "target",
-    "goal",
-    "demand",
-    "req",
-    "error",
-    "err",
-];
 /// Words of channels that are none of the motor's.
 const OTHERS: [&str; 8] =
     ["id", "temp", "temperature", "status", "state", "index", "flag", "count"];
@@ -215,10 +196,7 @@ fn score(role: Role, channel: &InspectedChannel) -> Option<(i32, String)> {
     let other_motion = [Role::Speed, Role::Current, Role::Torque, Role::Voltage];
     let not_a_position =
         role == Role::Motor && other_motion.iter().any(|other| has(other.words()).is_some());
-    let wish = words
-        .iter()
-        .find(|w| WISHES.contains(&w.as_str()) || w.contains("soll"))
-        .map(String::as_str);
+    let wish = commanded(&words);
     // What the controller wished is no motion.
     let wished_motion = wish.is_some() && [Role::Motor, Role::Speed, Role::Tip].contains(&role);
     if has(&OTHERS).is_some() || not_a_position || wished_motion {

@@ -1,5 +1,31 @@
 //! Words in names of channels.
 
+/// Words that name a value that the controller asks for, not what the drive did.
+const COMMANDED: [&str; 16] = [
+    "ref",
+    "reference",
+    "set",
+    "setpoint",
+    "soll",
+    "cmd",
+    "command",
+    "commanded",
+    "des",
+    "desired",
+    "target",
+    "goal",
+    "demand",
+    "req",
+    "error",
+    "err",
+];
+
+/// The word that says that a value is asked for by the controller.
+pub(super) fn commanded(words: &[String]) -> Option<&str> {
+    let asked = |w: &&String| COMMANDED.contains(&w.as_str()) || w.contains("soll");
+    words.iter().find(asked).map(String::as_str)
+}
+
 /// The words of a name in small letters, without numbers at their ends: `["field", "position"]` for `field.position0`,
 /// `["motor", "current"]` for `motorCurrent [A]`.
 pub(super) fn words(name: &str) -> Vec<String> {
@@ -31,7 +57,7 @@ fn push(found: &mut Vec<String>, word: &str) {
 
 #[cfg(test)]
 mod tests {
-    use super::words;
+    use super::{commanded, words};
 
     #[test]
     fn parts_of_names() {
@@ -40,5 +66,8 @@ mod tests {
         assert_eq!(words("Axis 1: ActPos"), ["axis", "act", "pos"]);
         assert_eq!(words("%time"), ["time"]);
         assert_eq!(words("2"), Vec::<String>::new());
+        assert_eq!(commanded(&words("Stromsollwert")), Some("stromsollwert"));
+        assert_eq!(commanded(&words("iq_des")), Some("des"));
+        assert_eq!(commanded(&words("iq actual")), None);
     }
 }

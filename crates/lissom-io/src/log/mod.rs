@@ -34,5 +34,6 @@ mod thinner;
 pub use log_columns::{ColumnRef, Log, LogColumn, LogOptions, TimeBack};
 pub use log_error::LogError;
 pub(crate) use log_layout::{Delimiter, comment, is_header, number};
+pub(crate) use other_format::bare_name;
 pub use plain_log::read_log_from;
 pub use read_log::read_log;

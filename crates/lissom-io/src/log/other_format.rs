@@ -93,11 +93,11 @@ fn place(file: &str, wanted: &ColumnRef, data: &LogData) -> Result<usize, LogErr
             let columns = data.channels.len();
             return Err(LogError::ColumnNumber { file: file(), number: *number, columns });
         }
-        ColumnRef::Name(name) => bare(name),
+        ColumnRef::Name(name) => bare_name(name),
     };
     let of = |is: &dyn Fn(&str) -> bool| {
         let channels = data.channels.iter().enumerate();
-        channels.filter(|(_, c)| is(bare(&c.name))).map(|(k, _)| k).collect::<Vec<_>>()
+        channels.filter(|(_, c)| is(bare_name(&c.name))).map(|(k, _)| k).collect::<Vec<_>>()
     };
     let mut found = of(&|channel| channel == name);
     if found.is_empty() {
@@ -123,7 +123,7 @@ fn place(file: &str, wanted: &ColumnRef, data: &LogData) -> Result<usize, LogErr
 }
 
 /// A name without the mark of a comment before it.
-fn bare(name: &str) -> &str {
+pub(crate) fn bare_name(name: &str) -> &str {
     name.trim().trim_start_matches(['#', '%', ' '])
 }
 

@@ -94,7 +94,7 @@ impl FittedPoles {
         self.fit.weighted_rms * (2.0 * share / self.readings as f64).sqrt()
     }
 
-    /// Standard errors of each output from what is left of it: the most likely mix of a share and of one size.
+    /// Standard errors of each output from its residual: the most likely mix of a share and of one size.
     fn mixed(&self, omega_rad_s: &[f64], size: f64) -> Vec<Vec<Response>> {
         let found: Vec<(f64, Vec<f64>)> = (0..self.outputs.len())
             .map(|i| {

@@ -222,15 +222,19 @@ fn saturation(campaign: &Campaign, run: &Run, findings: &mut Vec<Finding>) -> f6
     share
 }
 
+/// Whether a log of a drive may have samples this far apart \[s\].
+pub fn is_possible_sample_time(sample_time_s: f64) -> bool {
+    (SAMPLE_TIME_LEAST_S..SAMPLE_TIME_MOST_S).contains(&sample_time_s)
+}
+
 /// A sample time that is a large multiple of that of the runs in general, or a small part; one that no drive has is
 /// reported with the first run.
 fn unlike_sample_time(campaign: &Campaign, run: &Run) -> Option<Finding> {
     let mut times: Vec<f64> = campaign.runs.iter().map(Run::sample_time_s).collect();
     times.sort_by(f64::total_cmp);
     let (sample_time_s, median_s) = (run.sample_time_s(), times[(times.len() - 1) / 2]);
-    let possible = SAMPLE_TIME_LEAST_S..SAMPLE_TIME_MOST_S;
     let first = campaign.runs.first().is_some_and(|first| first.name() == run.name());
-    if first && !possible.contains(&median_s) {
+    if first && !is_possible_sample_time(median_s) {
         return Some(Finding::new(LogFinding::TimeUnit { sample_time_s: median_s }));
     }
     let ratio = sample_time_s / median_s;
