@@ -1,6 +1,8 @@
 //! `lissom export`: what is written holds the numbers of the result, and a C compiler accepts it.
 #![expect(clippy::unwrap_used, reason = "tests")]
 
+mod simulated_axis;
+
 use std::fs;
 use std::path::Path;
 use std::process::Command;
@@ -8,47 +10,22 @@ use std::process::Command;
 use serde_json::Value;
 use tempfile::TempDir;
 
-const AXIS: &str = r#"
-[beam]
-rigid = true
-[drive]
-inertia = "0.012 kg*m^2"
-viscous = "0.05 N*m*s/rad"
-torque_constant = "0.5 N*m/A"
-coulomb = "0.25 N*m"
-[rig]
-sample_time = "2 ms"
-controller = { proportional = "30 A/rad", derivative = "1 A*s/rad" }
-"#;
-const PLAN: &str = r#"
-[[runs]]
-name = "log"
-multisine = { frequency = "0.2 Hz", to = "2 Hz", amplitude = "1 rad" }
-record = "20 s"
-"#;
-
-fn lissom(folder: &Path, arguments: &[&str]) -> (Option<i32>, String) {
-    let mut command = Command::new(assert_cmd::cargo::cargo_bin!("lissom"));
-    let output = command.args(arguments).current_dir(folder).env("NO_COLOR", "1").output().unwrap();
-    (output.status.code(), String::from_utf8(output.stderr).unwrap())
-}
+use simulated_axis::simulated_axis;
 
 /// A folder with the result of a rigid axis.
 fn result() -> (TempDir, Value) {
-    let folder = tempfile::tempdir().unwrap();
-    fs::write(folder.path().join("axis.toml"), AXIS).unwrap();
-    fs::write(folder.path().join("plan.toml"), PLAN).unwrap();
-    let (code, error) =
-        lissom(folder.path(), &["rig", "axis.toml", "--campaign", "plan.toml", "--out", "made"]);
+    let folder = simulated_axis();
+    let made = ["identify", "made/campaign.toml", "--quick", "--json", "result.json"];
+    let (code, _, error) = simulated_axis::lissom(folder.path(), &made);
     assert_eq!(code, Some(0), "{error}");
-    let (code, error) = lissom(
-        folder.path(),
-        &["identify", "made/campaign.toml", "--quick", "--json", "result.json"],
-    );
-    assert_eq!(code, Some(0), "{error}");
-    let result =
-        serde_json::from_str(&fs::read_to_string(folder.path().join("result.json")).unwrap());
-    (folder, result.unwrap())
+    let text = fs::read_to_string(folder.path().join("result.json")).unwrap();
+    (folder, serde_json::from_str(&text).unwrap())
+}
+
+/// Runs the command: exit code and standard error.
+fn lissom(folder: &Path, arguments: &[&str]) -> (Option<i32>, String) {
+    let (code, _, error) = simulated_axis::lissom(folder, arguments);
+    (code, error)
 }
 
 fn export(folder: &Path, more: &[&str]) -> (Option<i32>, String) {

@@ -1,49 +1,20 @@
 //! Logs that no campaign.toml describes: `lissom inspect`, `lissom init`, `lissom identify LOG`.
 #![expect(clippy::unwrap_used, reason = "tests")]
 
+mod simulated_axis;
+
 use std::fmt::Write as _;
 use std::path::Path;
-use std::process::Command;
 
 use lissom_testmodels::SchemaCheck;
 use serde_json::{Value, json};
 use tempfile::TempDir;
 
-/// The axis that is simulated.
-const AXIS: &str = r#"
-[beam]
-rigid = true
-[drive]
-inertia = "0.012 kg*m^2"
-viscous = "0.05 N*m*s/rad"
-torque_constant = "0.5 N*m/A"
-coulomb = "0.25 N*m"
-[rig]
-sample_time = "2 ms"
-controller = { proportional = "30 A/rad", derivative = "1 A*s/rad" }
-"#;
-const PLAN: &str = r#"
-[[runs]]
-name = "log"
-multisine = { frequency = "0.2 Hz", to = "2 Hz", amplitude = "1 rad" }
-record = "20 s"
-"#;
-
-fn lissom(folder: &Path, arguments: &[&str]) -> (Option<i32>, String, String) {
-    let mut command = Command::new(assert_cmd::cargo::cargo_bin!("lissom"));
-    let output = command.args(arguments).current_dir(folder).env("NO_COLOR", "1").output().unwrap();
-    let text = |bytes| String::from_utf8(bytes).unwrap();
-    (output.status.code(), text(output.stdout), text(output.stderr))
-}
+use simulated_axis::{lissom, simulated_axis};
 
 /// A folder, and the rows of the simulated log: time, current, angle.
 fn simulated() -> (TempDir, Vec<[f64; 3]>) {
-    let folder = tempfile::tempdir().unwrap();
-    std::fs::write(folder.path().join("axis.toml"), AXIS).unwrap();
-    std::fs::write(folder.path().join("plan.toml"), PLAN).unwrap();
-    let made = ["rig", "axis.toml", "--campaign", "plan.toml", "--out", "made"];
-    let (code, _, error) = lissom(folder.path(), &made);
-    assert_eq!(code, Some(0), "{error}");
+    let folder = simulated_axis();
     let text = std::fs::read_to_string(folder.path().join("made/log.csv")).unwrap();
     let numbers =
         |line: &str| -> Vec<f64> { line.split(',').filter_map(|c| c.parse().ok()).collect() };

@@ -3,17 +3,11 @@
 #![cfg(feature = "hdf5")]
 #![expect(clippy::unwrap_used, reason = "tests")]
 
-use std::path::Path;
+mod samples;
 
-use lissom_formats::{Clock, Format, LogData, read};
+use lissom_formats::{Clock, Format};
 
-fn sample(name: &str) -> LogData {
-    read(&Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/files").join(name)).unwrap()
-}
-
-fn names(data: &LogData) -> Vec<&str> {
-    data.channels.iter().map(|c| c.name.as_str()).collect()
-}
+use samples::{names, sample};
 
 #[test]
 fn datasets_have_the_path_of_their_groups() {

@@ -2,17 +2,11 @@
 
 #![expect(clippy::unwrap_used, reason = "tests")]
 
-use std::path::Path;
+mod samples;
 
-use lissom_formats::{Clock, Format, FormatError, LogData, read, read_bytes};
+use lissom_formats::{Clock, Format, FormatError, read_bytes};
 
-fn sample(name: &str) -> LogData {
-    read(&Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/files").join(name)).unwrap()
-}
-
-fn names(data: &LogData) -> Vec<&str> {
-    data.channels.iter().map(|c| c.name.as_str()).collect()
-}
+use samples::{names, sample};
 
 fn header(big_endian: bool) -> Vec<u8> {
     let mut bytes = b"MATLAB 5.0 MAT-file".to_vec();

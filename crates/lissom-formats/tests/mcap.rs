@@ -3,20 +3,16 @@
 #![cfg(feature = "mcap")]
 #![expect(clippy::unwrap_used, reason = "tests")]
 
+mod samples;
+
 use std::path::{Path, PathBuf};
 
-use lissom_formats::{Clock, Format, LogData, read, read_bytes};
+use lissom_formats::{Clock, Format, read_bytes};
+
+use samples::{names, sample};
 
 fn path(name: &str) -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/files").join(name)
-}
-
-fn sample(name: &str) -> LogData {
-    read(&path(name)).unwrap()
-}
-
-fn names(data: &LogData) -> Vec<&str> {
-    data.channels.iter().map(|c| c.name.as_str()).collect()
 }
 
 const NAMES: [&str; 8] = [

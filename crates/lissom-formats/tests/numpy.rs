@@ -2,17 +2,11 @@
 
 #![expect(clippy::unwrap_used, reason = "tests")]
 
-use std::path::Path;
+mod samples;
 
-use lissom_formats::{Format, FormatError, LogData, read, read_bytes};
+use lissom_formats::{Format, FormatError, read_bytes};
 
-fn sample(name: &str) -> LogData {
-    read(&Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/files").join(name)).unwrap()
-}
-
-fn names(data: &LogData) -> Vec<&str> {
-    data.channels.iter().map(|c| c.name.as_str()).collect()
-}
+use samples::{names, sample};
 
 /// An array with this header.
 fn array(version: u8, header: &str, content: &[u8]) -> Vec<u8> {

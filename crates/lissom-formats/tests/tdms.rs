@@ -2,17 +2,13 @@
 
 #![expect(clippy::unwrap_used, reason = "tests")]
 
+mod samples;
+
 use std::path::Path;
 
-use lissom_formats::{Clock, Format, FormatError, LogData, read, read_bytes};
+use lissom_formats::{Clock, Format, FormatError, read_bytes};
 
-fn sample(name: &str) -> LogData {
-    read(&Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/files").join(name)).unwrap()
-}
-
-fn names(data: &LogData) -> Vec<&str> {
-    data.channels.iter().map(|c| c.name.as_str()).collect()
-}
+use samples::{names, sample};
 
 #[test]
 fn channels_of_all_segments_are_joined() {
