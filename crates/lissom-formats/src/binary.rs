@@ -8,6 +8,8 @@ use crate::hdf5;
 use crate::log_data::LogData;
 #[cfg(feature = "mcap")]
 use crate::mcap;
+#[cfg(feature = "parquet")]
+use crate::parquet_file;
 #[cfg(feature = "xlsx")]
 use crate::xlsx;
 use crate::{matlab, numpy, tdms, uff58, wpilog, zip};
@@ -31,6 +33,8 @@ const BINARY: &[Binary] = &[
     Binary { begins: |bytes| bytes.starts_with(matlab::MATLAB_73), read: matlab::read_v73 },
     #[cfg(feature = "mcap")]
     Binary { begins: |bytes| bytes.starts_with(mcap::MCAP), read: mcap::read },
+    #[cfg(feature = "parquet")]
+    Binary { begins: |bytes| bytes.starts_with(parquet_file::PARQUET), read: parquet_file::read },
     Binary { begins: matlab::begins_v4, read: matlab::read_v4 },
 ];
 

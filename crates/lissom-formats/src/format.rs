@@ -36,6 +36,8 @@ pub enum Format {
     Mcap,
     /// Excel workbook.
     Xlsx,
+    /// Parquet file.
+    Parquet,
 }
 
 impl Format {
@@ -54,6 +56,7 @@ impl Format {
             Self::Hdf5 => "HDF5 file",
             Self::Mcap => "MCAP file",
             Self::Xlsx => "Excel workbook",
+            Self::Parquet => "Parquet file",
             Self::WpiLog => "WPILib log",
             Self::Npz => "NumPy archive",
         }
@@ -90,7 +93,7 @@ pub(crate) fn foreign(bytes: &[u8]) -> Option<(&'static str, &'static str)> {
         (b"MATLAB 7.", "a MATLAB file of version 7.3 (HDF5)", MATLAB),
         (ZIP, "a ZIP archive without NumPy arrays", ARCHIVE),
         (b"\x89MCAP0\r\n", "an MCAP file", MCAP),
-        (b"PAR1", "a Parquet file", "in Python: pandas.read_parquet(FILE).to_csv(\"log.csv\")"),
+        (b"PAR1", "a Parquet file", PARQUET),
         (b"SQLite format 3\0", "an SQLite database (ROS 2 bags .db3 are such)", BAG),
         (
             b"#ROSBAG V2.0",
@@ -104,6 +107,8 @@ pub(crate) fn foreign(bytes: &[u8]) -> Option<(&'static str, &'static str)> {
     const HDF5: &str = full_or!("HDF5 files", "export the channels as CSV");
     const MATLAB: &str =
         full_or!("HDF5 files", "in MATLAB: load(FILE); save(\"log.mat\", \"-v7\")");
+    const PARQUET: &str =
+        full_or!("Parquet files", "in Python: pandas.read_parquet(FILE).to_csv(\"log.csv\")");
     const MCAP: &str = full_or!("MCAP files", "export the topics as CSV");
     const ARCHIVE: &str = "unpack it, or save the table as CSV";
     const BAG: &str = "convert the bag to MCAP or export the topics as CSV";

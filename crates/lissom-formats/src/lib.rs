@@ -17,6 +17,7 @@
 //! | HDF5 (feature `hdf5`) | datasets of numbers with the path of their groups, compound types by field, units in attributes |
 //! | MCAP (feature `mcap`) | messages of ROS 2 and in JSON: each number of a topic, with its clock |
 //! | Excel `.xlsx` (feature `xlsx`) | the sheet with the longest block of numbers, with its header and its row of units |
+//! | Parquet (feature `parquet`) | columns of numbers and of structs of numbers; times are seconds |
 //!
 //! The feature `full` has all formats. Without its feature, a format is recognised, and the error states the way out.
 //!
@@ -29,7 +30,7 @@ mod collected;
 mod cursor;
 mod format;
 mod format_error;
-#[cfg(any(feature = "hdf5", feature = "xlsx"))]
+#[cfg(any(feature = "hdf5", feature = "parquet", feature = "xlsx"))]
 mod guard;
 #[cfg(feature = "hdf5")]
 mod hdf5;
@@ -40,6 +41,8 @@ mod matlab;
 mod mcap;
 mod number;
 mod numpy;
+#[cfg(feature = "parquet")]
+mod parquet_file;
 mod read;
 mod tdms;
 mod text;

@@ -135,7 +135,7 @@ fn spaced<const N: usize>(
 }
 
 /// A number of 16 bits, IEEE 754 half precision: sign, 5 bits of exponent, 10 bits of fraction.
-fn half(bits: u16) -> f64 {
+pub(crate) fn half(bits: u16) -> f64 {
     let fraction = f64::from(bits & 0x3ff);
     let size = match (bits >> 10) & 0x1f {
         0 => fraction * 2f64.powi(-24),

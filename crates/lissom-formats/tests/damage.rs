@@ -19,6 +19,7 @@ fn is_read(path: &Path) -> bool {
     (cfg!(feature = "hdf5") || !needs(&[".h5", "_v73.mat"]))
         && (cfg!(feature = "mcap") || !needs(&[".mcap"]))
         && (cfg!(feature = "xlsx") || !needs(&[".xlsx"]))
+        && (cfg!(feature = "parquet") || !needs(&[".parquet"]))
 }
 
 fn samples() -> Vec<(PathBuf, Vec<u8>)> {

@@ -1,7 +1,7 @@
 """Writes log files with other people's libraries, and beside each the channels that should be found in it.
 
     pip install numpy scipy npTDMS pytest pyuff "robotpy-wpiutil<2025" \
-        h5py hdf5storage mcap mcap-ros2-support openpyxl
+        h5py hdf5storage mcap mcap-ros2-support openpyxl pyarrow
     python write.py FOLDER
     LISSOM_EXTERNAL=FOLDER cargo test -p lissom-formats --features full --test external -- --nocapture
 """
@@ -15,6 +15,7 @@ import hdf5_files
 import matlab_files
 import mcap_files
 import numpy_files
+import parquet_files
 import tdms_files
 import uff_files
 import wpilog_files
@@ -24,7 +25,7 @@ SEED = 20261127
 
 
 def main(folder):
-    for module in (numpy_files, matlab_files, wpilog_files, tdms_files, uff_files, hdf5_files, mcap_files, xlsx_files):
+    for module in (numpy_files, matlab_files, wpilog_files, tdms_files, uff_files, hdf5_files, mcap_files, xlsx_files, parquet_files):
         place = pathlib.Path(folder) / module.__name__
         place.mkdir(parents=True, exist_ok=True)
         count = module.write_all(place, np.random.default_rng(SEED))
