@@ -73,9 +73,11 @@ impl Collected {
         self.budget = self.budget.saturating_add(bytes as u64).min(MOST_BYTES);
     }
 
+    /// Notes something once.
     pub(crate) fn note(&mut self, note: impl Into<String>) {
-        if self.notes.len() < MOST_NOTES {
-            self.notes.push(note.into());
+        let note = note.into();
+        if self.notes.len() < MOST_NOTES && !self.notes.contains(&note) {
+            self.notes.push(note);
         }
     }
 

@@ -64,6 +64,10 @@ impl Definitions {
         Some(of)
     }
 
+    pub(super) fn insert(&mut self, name: String, fields: Vec<Field>) {
+        self.messages.insert(name, fields);
+    }
+
     pub(super) fn message(&self, name: &str) -> Option<&[Field]> {
         self.messages.get(name).map(Vec::as_slice)
     }

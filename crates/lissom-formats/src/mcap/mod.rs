@@ -1,11 +1,14 @@
 //! MCAP files with messages of ROS 2, or with messages in JSON.
 //!
+//! The types of ROS 2 messages are read from the definitions in the file, `.msg` or IDL.
+//!
 //! Each number of a message is a channel, `/topic/field/x`. The time of a topic is `/topic/time`, in seconds from the first
 //! stamp of the file: the stamp in the header of its messages, else their log time. The file is read from its beginning, so
 //! that it needs no index and no end.
 
 mod cdr;
 mod chunk;
+mod idl;
 mod json_message;
 mod message;
 mod message_type;
@@ -175,6 +178,7 @@ impl Reader {
         let data = text(cursor)?;
         let definitions = match encoding.as_str() {
             "ros2msg" => Definitions::of_text(&name, &data),
+            "ros2idl" => idl::definitions(&data),
             _ => None,
         };
         let definitions = definitions.map(Rc::new);

@@ -24,6 +24,31 @@ TYPES = {
     "===\nMSG: drive_msgs/Part\nbyte code\nfloat64 value\nuint32[2] pair\n"
     "===\nMSG: builtin_interfaces/Duration\nint32 sec\nuint32 nanosec\n",
 }
+MODULE = "================\nIDL: {0}/msg/{1}\n// generated\n#include \"x.idl\"\nmodule {0} {{\n  module msg {{\n{2}\n  }};\n}};\n"
+IDL_TIME = MODULE.format("builtin_interfaces", "Time", "struct Time { long sec; unsigned long nanosec; };")
+IDL_HEADER = IDL_TIME + MODULE.format(
+    "std_msgs", "Header", "struct Header { builtin_interfaces::msg::Time stamp; string frame_id; };"
+)
+IDL_TYPES = {
+    "sensor_msgs/msg/JointState": MODULE.format(
+        "sensor_msgs", "JointState",
+        "@verbatim (language=\"comment\", text=\"The state (of; joints\" \"and more.\")\nstruct JointState { std_msgs::msg::Header header;"
+        "sequence<string> name; @verbatim(language=\"c\", text=\"x\") sequence<double> position; sequence<double> velocity;"
+        "sequence<double> effort; };") + IDL_HEADER,
+    "geometry_msgs/msg/WrenchStamped": MODULE.format(
+        "geometry_msgs", "WrenchStamped", "struct WrenchStamped { std_msgs::msg::Header header; geometry_msgs::msg::Wrench wrench; };")
+    + MODULE.format("geometry_msgs", "Wrench", "struct Wrench { Vector3 force; geometry_msgs::msg::Vector3 torque; };")
+    + MODULE.format("geometry_msgs", "Vector3", "struct Vector3 { double x; double y; double z; };") + IDL_HEADER,
+    "std_msgs/msg/Float64": MODULE.format("std_msgs", "Float64", "struct Float64 { double data; };"),
+    "drive_msgs/msg/State": MODULE.format(
+        "drive_msgs", "State",
+        "typedef double double__3[3]; module State_Constants { const uint8 ON = 1; const string NAME = \"a // b\"; };"
+        "struct State { boolean on; int8 a; @default(value=1.5) float b; sequence<uint16> c; long long d; string text; octet e;"
+        "double__3 f; sequence<string, 4> words; short g; sequence<drive_msgs::msg::Part> parts;"
+        "builtin_interfaces::msg::Duration age; sequence<double> long_; uint8 h; };".replace("long_", "long"))
+    + MODULE.format("drive_msgs", "Part", "struct Part { octet code; double value; unsigned long pair[2]; };")
+    + MODULE.format("builtin_interfaces", "Duration", "struct Duration { long sec; unsigned long nanosec; };"),
+}
 START_NS = 1_764_201_600_123_456_789
 JOINTS = ["shoulder", "elbow", "wrist"]
 
@@ -104,9 +129,11 @@ def write_file(path, rng, count, encoding, sync, options, cut=None):
         for topic, kind, _ in TOPICS:
             if encoding == "json":
                 schema = writer.register_schema(kind, "jsonschema", b'{"type": "object"}')
+            elif encoding == "idl":
+                schema = writer.register_schema(kind, "ros2idl", IDL_TYPES[kind].encode())
             else:
                 schema = writer.register_schema(kind, "ros2msg", TYPES[kind].encode())
-            ids[topic] = writer.register_channel(topic, encoding, schema)
+            ids[topic] = writer.register_channel(topic, "json" if encoding == "json" else "cdr", schema)
         other = writer.register_channel("/other", "protobuf", writer.register_schema("x.Y", "protobuf", b"\1\2"))
         encoders = {kind: serialize_dynamic(kind, TYPES[kind])[kind] for _, kind, _ in TOPICS}
         for k in range(count):
@@ -144,7 +171,7 @@ def write_all(folder, rng):
                   "repeat_schemas": False, "enable_crcs": False, "enable_data_crcs": True},
     }
     for (name, options), encoding, sync in itertools.product(
-        chunkings.items(), ("cdr", "json"), (0, 20_000_000, 5000 * 10**9)
+        chunkings.items(), ("cdr", "idl", "json"), (0, 20_000_000, 5000 * 10**9)
     ):
         write_file(folder / f"{name}_{encoding}_{sync}.mcap", rng, 150, encoding, sync, options)
         count += 1
