@@ -11,6 +11,8 @@ use lissom_formats::{Format, LogData, read_bytes};
 const LONGEST: Duration = Duration::from_secs(2);
 /// Changes of a byte: one bit low, one bit high, all bits.
 const CHANGES: [u8; 3] = [0x01, 0x80, 0xff];
+/// Each byte of a larger file is changed in one of these ways only.
+const SMALL: usize = 8192;
 
 /// Whether this build reads a file.
 fn is_read(path: &Path) -> bool {
@@ -75,7 +77,10 @@ fn a_file_that_is_cut_off_is_an_error_or_a_shorter_log_with_a_note() {
 fn a_changed_byte_never_stops_the_program() {
     for (path, bytes) in samples() {
         for place in 0..bytes.len() {
-            for change in CHANGES {
+            for (k, change) in CHANGES.into_iter().enumerate() {
+                if bytes.len() > SMALL && k != place % CHANGES.len() {
+                    continue;
+                }
                 let mut changed = bytes.clone();
                 changed[place] ^= change;
                 let begun = Instant::now();
