@@ -8,8 +8,9 @@ use crate::threshold::Threshold;
 use crate::{information, plan, record, spectrum};
 
 /// The lists of all methods, in the order of the data flow.
-const GROUPS: [&[Threshold]; 16] = [
+const GROUPS: [&[Threshold]; 17] = [
     record::clock::thresholds::LIST,
+    record::other_clock::thresholds::LIST,
     all_methods::LIST,
     spectrum::thresholds::LIST,
     prepare::thresholds::LIST,

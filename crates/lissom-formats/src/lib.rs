@@ -43,6 +43,7 @@ mod number;
 mod numpy;
 #[cfg(feature = "parquet")]
 mod parquet_file;
+mod parts;
 mod read;
 mod tdms;
 mod text;

@@ -15,6 +15,9 @@ pub(crate) struct LogArgs {
     /// Sample time of logs without time stamps, e.g. "1 ms"
     #[arg(long, value_name = "TIME", value_parser = time_text)]
     sample_time: Option<String>,
+    /// Column with the number of the run or trial, if a log has several runs
+    #[arg(long, value_name = "COLUMN")]
+    run: Option<String>,
     /// Motor current [default: found]
     #[arg(long, value_name = "COLUMN:UNIT", value_parser = choice, group = "drive_input")]
     current: Option<Choice>,
@@ -100,6 +103,7 @@ impl LogArgs {
         Description {
             time: self.time.clone(),
             sample_time: self.sample_time.clone(),
+            run: self.run.clone(),
             command: inputs.into_iter().find_map(|(key, said)| Some((key, said?))),
             motor: self.motor.clone(),
             speed: self.speed.clone(),

@@ -5,6 +5,7 @@ mod channel;
 pub mod clock;
 mod error;
 mod note;
+pub mod other_clock;
 mod run;
 
 pub use channel::{Axis, Channels, Command, CommandQuantity, Hold, Tip, TipQuantity};

@@ -1,5 +1,7 @@
 //! What was done to a log when it was read.
 
+use super::other_clock::OtherClock;
+
 /// A change that was made to a log when it was read into a [`Run`](super::Run), and that its user should know.
 #[derive(Debug, Clone, PartialEq)]
 #[non_exhaustive]
@@ -53,6 +55,13 @@ pub enum Note {
         count: usize,
         /// Share of the filled rows in all samples \[1\].
         share: f64,
+    },
+    /// A channel is from another log, whose clock was found from the motion.
+    OtherClock {
+        /// Name of the channel.
+        channel: String,
+        /// The clock.
+        clock: OtherClock,
     },
     /// Every reading was logged several times. Only the first of each was kept.
     RepeatedReadings {

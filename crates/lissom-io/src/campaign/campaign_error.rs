@@ -33,6 +33,20 @@ pub enum CampaignError {
         /// The unit found.
         unit: String,
     },
+    /// The speed of the motor in a log of its own.
+    #[error(
+        "{place}: a motor's speed must be in the log of the run; its angle may have a log of its own"
+    )]
+    OwnLogOfSpeed {
+        /// Place of the table.
+        place: ConfigPlace,
+    },
+    /// A key of a signal's own log without that log.
+    #[error("{place}: this belongs to a signal in a log of its own, and there is no `file`")]
+    NoOwnLog {
+        /// Place of the value.
+        place: ConfigPlace,
+    },
     /// A command's unit is not a unit of current, voltage or torque, and not `1`.
     #[error(
         "{place}: the command is measured in {found}, which is neither a current, a voltage nor {effort}"
@@ -207,6 +221,10 @@ impl CampaignError {
             }
             Self::CameraOnLinear { .. } => "give one column with a unit of length",
             Self::CameraQuantity { .. } => "remove `quantity`",
+            Self::OwnLogOfSpeed { .. } => {
+                "give the log with the motor's speed as the `file` of the run"
+            }
+            Self::NoOwnLog { .. } => "add `file`, the log that has this signal, or remove it",
         };
         Some(hint.to_owned())
     }

@@ -3,6 +3,7 @@
 use lissom_core::record::{Axis, CommandQuantity, Hold, Tip, TipQuantity};
 
 use super::campaign_error::CampaignError;
+use super::own_logs::OwnLog;
 use crate::config::{ConfigError, Rule, Table, Value};
 use crate::io_error::Error;
 use crate::log::ColumnRef;
@@ -12,6 +13,8 @@ use crate::units::{Dimension, UnitError};
 pub(super) struct Signals {
     pub(super) time: TimeSource,
     pub(super) decimal_comma: bool,
+    /// The column with the number of the run, if a log has several.
+    pub(super) run: Option<ColumnRef>,
     pub(super) axis: Axis,
     pub(super) command: CommandSource,
     pub(super) motor: Reading,
@@ -20,6 +23,10 @@ pub(super) struct Signals {
     /// The motor's speed, in addition to its angle.
     pub(super) speed: Option<Reading>,
     pub(super) tips: Vec<(Tip, TipSource)>,
+    /// The log of the motor, if it is not that of the run.
+    pub(super) motor_log: Option<OwnLog>,
+    /// The log of each tip, if it is not that of the run.
+    pub(super) tip_logs: Vec<Option<OwnLog>>,
 }
 
 pub(super) enum TimeSource {
@@ -85,6 +92,7 @@ pub(super) fn signals(table: &Table<'_>) -> Result<Signals, Error> {
     table.only(&[
         "time",
         "sample_time",
+        "run",
         "current",
         "voltage",
         "command",
@@ -104,17 +112,26 @@ pub(super) fn signals(table: &Table<'_>) -> Result<Signals, Error> {
         return Err(none_of(table, &kinds).into());
     };
     let command_table = value.table()?;
-    let (axis, motor, motor_speed) = motor(&table.need("motor")?.table()?)?;
+    let motor_table = table.need("motor")?.table()?;
+    let motor_log = own_log(&motor_table)?;
+    let (axis, motor, motor_speed) = motor(&motor_table)?;
+    if motor_speed && motor_log.is_some() {
+        return Err(CampaignError::OwnLogOfSpeed { place: motor_table.place() }.into());
+    }
     let speed = table.get("speed").map(|v| speed(&v, axis, motor_speed)).transpose()?;
     let command = command(&command_table, kind, axis)?;
     if motor_speed && command.kind == CommandKind::Goal {
         return Err(CampaignError::GoalWithSpeed { place: command_table.place() }.into());
     }
+    let mut tip_logs = Vec::new();
     let tips = match table.get("tips") {
         None => Vec::new(),
         Some(value) => {
             let items =
                 value.list("a list of tips, as in [{ column = \"theta_t\", unit = \"rad\" }]")?;
+            for item in &items {
+                tip_logs.push(own_log(&item.table()?)?);
+            }
             let several = items.len() > 1;
             let tip = |(index, item): (usize, &Value<'_>)| {
                 let name = if several { format!("tip {}", index + 1) } else { "tip".to_owned() };
@@ -124,7 +141,44 @@ pub(super) fn signals(table: &Table<'_>) -> Result<Signals, Error> {
         }
     };
     let decimal_comma = decimal == Some(1);
-    Ok(Signals { time, decimal_comma, axis, command, motor, motor_speed, speed, tips })
+    let run = table.get("run").map(|value| column(&value)).transpose()?;
+    Ok(Signals {
+        time,
+        decimal_comma,
+        run,
+        axis,
+        command,
+        motor,
+        motor_speed,
+        speed,
+        tips,
+        motor_log,
+        tip_logs,
+    })
+}
+
+/// Keys of a signal in a log of its own.
+const OWN_LOG: [&str; 4] = ["file", "time", "sample_time", "clock"];
+
+/// The log of a signal, if it has one of its own.
+fn own_log(table: &Table<'_>) -> Result<Option<OwnLog>, Error> {
+    let Some(file) = table.get("file") else {
+        for key in &OWN_LOG[1..] {
+            if let Some(value) = table.get(key) {
+                return Err(CampaignError::NoOwnLog { place: value.place() }.into());
+            }
+        }
+        return Ok(None);
+    };
+    let time = match table.get("time") {
+        Some(_) => table.one_of(&["time", "sample_time"])?.map(|(_, v)| stamps(&v.table()?)),
+        None => {
+            table.get("sample_time").map(|v| v.positive(Dimension::TIME).map(TimeSource::Steps))
+        }
+    };
+    let clock = table.get("clock").map(|v| v.choice(&["own", "shared"])).transpose()?;
+    let file = file.text()?.to_owned();
+    Ok(Some(OwnLog { file, time: time.transpose()?, shared_clock: clock == Some(1) }))
 }
 
 fn none_of(table: &Table<'_>, keys: &[&'static str]) -> ConfigError {
@@ -219,7 +273,7 @@ fn position(axis: Axis) -> &'static str {
 
 /// Reads the axis, the motor's column, and whether it is a speed.
 fn motor(table: &Table<'_>) -> Result<(Axis, Reading, bool), Error> {
-    table.only(&["column", "unit", "scale", "offset", "quantity"])?;
+    table.only(&[&["column", "unit", "scale", "offset", "quantity"], &OWN_LOG[..]].concat())?;
     let quantity = table.get("quantity").map(|v| v.choice(&["angle", "speed"])).transpose()?;
     let wanted = quantity == Some(1);
     let unit = table.need("unit")?;
@@ -271,9 +325,9 @@ fn tip(table: &Table<'_>, axis: Axis, default_name: String) -> Result<(Tip, TipS
         let tip = Tip { name, quantity: TipQuantity::Angle, calibrated: true };
         return Ok((tip, camera(table, axis)?));
     }
-    table.only(&[
-        "name", "column", "unit", "scale", "offset", "quantity", "radius", "x", "y", "origin",
-    ])?;
+    let keys =
+        ["name", "column", "unit", "scale", "offset", "quantity", "radius", "x", "y", "origin"];
+    table.only(&[&keys[..], &OWN_LOG[..]].concat())?;
     let quantity = quantity(table)?;
     let unit = table.need("unit")?;
     let (size, found) = unit.any_unit()?;
@@ -315,7 +369,8 @@ fn quantity(table: &Table<'_>) -> Result<TipQuantity, ConfigError> {
 
 fn camera(table: &Table<'_>, axis: Axis) -> Result<TipSource, Error> {
     table.one_of(&["column", "x"])?;
-    table.only(&["name", "x", "y", "unit", "origin", "scale", "quantity"])?;
+    let keys = ["name", "x", "y", "unit", "origin", "scale", "quantity"];
+    table.only(&[&keys[..], &OWN_LOG[..]].concat())?;
     if axis == Axis::Linear {
         return Err(CampaignError::CameraOnLinear { place: table.place() }.into());
     }

@@ -37,7 +37,7 @@ fn log(rows: impl IntoIterator<Item = usize>) -> String {
     text
 }
 
-fn folder(campaign: &str, logs: &[(&str, &str)]) -> TempDir {
+pub(super) fn folder(campaign: &str, logs: &[(&str, &str)]) -> TempDir {
     let folder = tempfile::tempdir().unwrap();
     std::fs::write(folder.path().join("campaign.toml"), campaign).unwrap();
     for (name, text) in logs {

@@ -14,7 +14,9 @@ use super::campaign_error::CampaignError;
 use super::campaign_file::ReadOptions;
 use super::campaign_signals::{CommandKind, Reading, Signals, TimeSource, TipSource};
 use super::derived_channels::{goal_difference, integrated};
+use super::own_logs::{RunLog, RunSignals};
 use super::run_spec::RunSpec;
+use super::several_runs;
 use super::speed_check::{self, Contradiction};
 use super::whole_turns;
 use crate::config::MAGNITUDE;
@@ -32,9 +34,10 @@ pub(super) fn load(
     specs: &[RunSpec],
     options: &ReadOptions,
 ) -> Result<Campaign, Error> {
+    let specs = several_runs::of_specs(folder, signals.run.as_ref(), specs)?;
     let mut names = Vec::with_capacity(specs.len());
     let mut named: HashMap<&str, usize> = HashMap::new();
-    for spec in specs {
+    for spec in &specs {
         let times = named.entry(&spec.name).and_modify(|n| *n += 1).or_insert(1);
         // Findings and results identify runs by name.
         names.push(if *times == 1 {
@@ -62,16 +65,19 @@ fn load_run(
     options: &ReadOptions,
 ) -> Result<Vec<Run>, Error> {
     let path = folder.join(&spec.file);
-    let file = path.display().to_string();
+    let file = spec.part.as_ref().map_or_else(|| path.display().to_string(), |p| p.label.clone());
     let log_options =
         LogOptions { max_rows: options.max_rows, decimal_comma: signals.decimal_comma };
     let time = match &signals.time {
         TimeSource::Stamps(column, _) => Some(column),
         TimeSource::Steps(_) => None,
     };
-    let log = log::read_log(&path, time, &columns(signals), &log_options)?;
+    let log = match &spec.part {
+        Some(part) => log::read_part(part, time, &columns(signals), &log_options)?,
+        None => log::read_log(&path, time, &columns(signals), &log_options)?,
+    };
     let (factor, repeated) = (log.factor, log.repeated);
-    let (even, turns) = even_parts(log, signals, spec, options, &file)?;
+    let (even, turns, own) = even_parts(log, signals, (folder, spec), options, &file)?;
     let count = even.parts.len();
     let mut runs = Vec::with_capacity(count);
     for (index, part) in even.parts.into_iter().enumerate() {
@@ -100,6 +106,7 @@ fn load_run(
             })?;
         }
         if index == 0 {
+            run = own.iter().cloned().fold(run, Run::with_note);
             if factor > 1 {
                 run = run.with_note(Note::Thinned { factor });
             }
@@ -161,13 +168,20 @@ fn of_log(error: RecordError, file: &str) -> Error {
     }
 }
 
-/// The columns to read: command, motor, the columns of each tip, and the speed if it is logged in addition.
+/// The columns to read from the log of the run: command, motor, the columns of each tip, and the speed if it is logged in
+/// addition.
 fn columns(signals: &Signals) -> Vec<LogColumn> {
     let measured = |column: &ColumnRef| LogColumn { column: column.clone(), hold: Hold::Measured };
     let command = &signals.command;
     let command = LogColumn { column: command.reading.column.clone(), hold: command.hold };
-    let mut columns = vec![command, measured(&signals.motor.column)];
-    for (_, source) in &signals.tips {
+    let mut columns = vec![command];
+    if signals.motor_log.is_none() {
+        columns.push(measured(&signals.motor.column));
+    }
+    for (k, (_, source)) in signals.tips.iter().enumerate() {
+        if signals.tip_logs[k].is_some() {
+            continue;
+        }
         match source {
             TipSource::Column(reading) => columns.push(measured(&reading.column)),
             TipSource::Camera { x, y, .. } => columns.extend([measured(x), measured(y)]),
@@ -177,14 +191,14 @@ fn columns(signals: &Signals) -> Vec<LogColumn> {
     columns
 }
 
-/// Turns a log into runs with even samples.
+/// Turns a log into runs with even samples. Also returns the number of turns removed, and notes on signals of other logs.
 fn even_parts(
     log: Log,
     signals: &Signals,
-    spec: &RunSpec,
+    (folder, spec): (&Path, &RunSpec),
     options: &ReadOptions,
     file: &str,
-) -> Result<(EvenLog, usize), Error> {
+) -> Result<(EvenLog, usize, Vec<Note>), Error> {
     let (stamps_s, sample_time_s, stamp_step_s) = match (&signals.time, log.time) {
         (TimeSource::Stamps(_, unit_s), Some(mut stamps)) => {
             for stamp in &mut stamps {
@@ -205,12 +219,21 @@ fn even_parts(
     let (mut command, mut motor, mut tips) = channels(columns, signals);
     in_range(&command, &motor, &tips, signals, file)?;
     let turns = remove_turns(signals, &mut command, &mut motor, &mut tips);
-    if let Some(speed) = speed
+    if let Some(speed) = speed.filter(|_| signals.motor_log.is_none())
         && let Some(found) = speed_check::contradiction(&stamps_s, &motor, &speed)
     {
         let Contradiction { ratio, correlation } = found;
         return Err(LogError::Speed { file: file.to_owned(), ratio, correlation }.into());
     }
+    let (stamps_s, command, motor, tips, notes) = if has_own_logs(signals) {
+        let mut all = RunSignals { stamps_s, command, motor, tips, notes: Vec::new() };
+        let log_options = LogOptions { max_rows: options.max_rows, decimal_comma: false };
+        RunLog { folder, spec, signals, options: &log_options, file }.join(&mut all)?;
+        in_range(&all.command, &all.motor, &all.tips, signals, file)?;
+        (all.stamps_s, all.command, all.motor, all.tips, all.notes)
+    } else {
+        (stamps_s, command, motor, tips, Vec::new())
+    };
     let hold = signals.command.hold;
     let rows = LogRows { stamps_s, sample_time_s, stamp_step_s, command, hold, motor, tips };
     let even =
@@ -242,7 +265,12 @@ fn even_parts(
         }
         .into());
     }
-    Ok((even, turns))
+    Ok((even, turns, notes))
+}
+
+/// Whether a signal is in a log of its own.
+fn has_own_logs(signals: &Signals) -> bool {
+    signals.motor_log.is_some() || signals.tip_logs.iter().any(Option::is_some)
 }
 
 /// Removes jumps of one turn from all angles, and counts them.
@@ -274,11 +302,14 @@ fn remove_turns(
 fn channels(columns: Vec<Vec<f64>>, signals: &Signals) -> (Vec<f64>, Vec<f64>, Vec<Vec<f64>>) {
     let mut columns = columns.into_iter();
     let mut next = || columns.next().unwrap_or_default();
+    // A signal of another log is empty here.
     let command = in_si(next(), &signals.command.reading);
-    let motor = in_si(next(), &signals.motor);
+    let motor =
+        if signals.motor_log.is_some() { Vec::new() } else { in_si(next(), &signals.motor) };
     let mut tips = Vec::with_capacity(signals.tips.len());
-    for (_, source) in &signals.tips {
+    for (k, (_, source)) in signals.tips.iter().enumerate() {
         tips.push(match source {
+            _ if signals.tip_logs[k].is_some() => Vec::new(),
             TipSource::Column(reading) => in_si(next(), reading),
             TipSource::Camera { origin, scale, .. } => {
                 let (x, y) = (next(), next());
@@ -289,7 +320,7 @@ fn channels(columns: Vec<Vec<f64>>, signals: &Signals) -> (Vec<f64>, Vec<f64>, V
     (command, motor, tips)
 }
 
-fn in_si(mut column: Vec<f64>, reading: &Reading) -> Vec<f64> {
+pub(super) fn in_si(mut column: Vec<f64>, reading: &Reading) -> Vec<f64> {
     for value in &mut column {
         *value = *value * reading.gain + reading.offset;
     }
@@ -297,7 +328,7 @@ fn in_si(mut column: Vec<f64>, reading: &Reading) -> Vec<f64> {
 }
 
 /// Angle of the radius from the origin to a point, unwrapped at ±π.
-fn camera_angle(x: &[f64], y: &[f64], origin: [f64; 2], scale: f64) -> Vec<f64> {
+pub(super) fn camera_angle(x: &[f64], y: &[f64], origin: [f64; 2], scale: f64) -> Vec<f64> {
     let mut turns = 0.0;
     let mut last: Option<f64> = None;
     x.iter()

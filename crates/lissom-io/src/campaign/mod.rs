@@ -8,6 +8,7 @@
 //! speed   = { column = "omega_m", unit = "rpm" }   # optional: is compared with the angle
 //! tips    = [{ name = "tip", column = "theta_t", unit = "rad" }]
 //! decimal = ","                             # absent: a point
+//! run     = "trial"                         # optional: column with the number of the run, if a log has several
 //! [drive]
 //! torque_constant = "2.184 lbf*in/A"
 //! current_limit = "4.12 A"
@@ -21,7 +22,7 @@
 //! harmonics = 9
 //! skip = "1 s"                              # beginning of every run to leave out
 //! [[runs]]
-//! file = "run-01.csv"
+//! file = "run-01.csv"                       # or "log.h5::run1", a group in a file; "log.h5::run*" for all groups
 //! frequency = "0.5 Hz"                      # or omega_rad_s = 3.1416; found when absent
 //! ```
 //!
@@ -56,8 +57,12 @@ mod campaign_signals;
 mod campaign_tests;
 mod derived_channels;
 mod load_runs;
+mod own_logs;
 mod read_campaign;
 mod run_spec;
+#[cfg(test)]
+mod several_logs_tests;
+mod several_runs;
 mod speed_check;
 mod whole_turns;
 

@@ -3,22 +3,43 @@
 use std::path::{Path, PathBuf};
 
 use crate::config::{ConfigError, ConfigPlace, Rule, Value};
+use crate::log::{LogPart, LogPath};
 use crate::units::Dimension;
 
-/// A table `[[runs]]`.
+/// A table `[[runs]]`, or one of the runs of its file.
+#[derive(Clone)]
 pub(super) struct RunSpec {
     pub(super) file: PathBuf,
     pub(super) name: String,
     /// The drive frequency \[rad/s\], with its place in the campaign.
     pub(super) omega_rad_s: Option<(f64, ConfigPlace)>,
     pub(super) skip_s: f64,
+    /// The log of the motor, if it has one of its own.
+    pub(super) motor_file: Option<PathBuf>,
+    /// The logs of tips that have one of their own, in the order of the tips.
+    pub(super) tip_files: Vec<PathBuf>,
+    /// Its part of the file, if the file has several runs.
+    pub(super) part: Option<LogPart>,
 }
 
 impl RunSpec {
+    /// Its name without a group in it: the groups that fit have names of their own.
+    pub(super) fn title(&self) -> &str {
+        self.name.split_once("::").map_or(&self.name, |(file, _)| file)
+    }
+
     /// The run of a single log.
     pub(super) fn of_log(log: &Path, skip_s: Option<f64>) -> Self {
-        let name = log.file_name().map_or_else(String::new, |n| n.to_string_lossy().into_owned());
-        Self { file: log.to_owned(), name, omega_rad_s: None, skip_s: skip_s.unwrap_or(0.0) }
+        let name = LogPath::of(log).name();
+        Self {
+            file: log.to_owned(),
+            name,
+            omega_rad_s: None,
+            skip_s: skip_s.unwrap_or(0.0),
+            motor_file: None,
+            tip_files: Vec::new(),
+            part: None,
+        }
     }
 }
 
@@ -32,7 +53,7 @@ pub(super) fn runs(value: &Value<'_>, skip_s: Option<f64>) -> Result<Vec<RunSpec
 
 fn run(value: &Value<'_>, skip_s: Option<f64>) -> Result<RunSpec, ConfigError> {
     let table = value.table()?;
-    table.only(&["file", "name", "omega_rad_s", "frequency", "skip"])?;
+    table.only(&["file", "name", "omega_rad_s", "frequency", "skip", "motor_file", "tip_files"])?;
     let file = table.need("file")?.text()?;
     let name = table.get("name").map(|v| v.text()).transpose()?.unwrap_or(file);
     let omega_rad_s = match table.one_of(&["omega_rad_s", "frequency"])? {
@@ -44,10 +65,17 @@ fn run(value: &Value<'_>, skip_s: Option<f64>) -> Result<RunSpec, ConfigError> {
         Some((_, value)) => Some((value.positive(Dimension::RATE)?, value.place())),
     };
     let own_skip = table.get("skip").map(|v| v.not_negative(Dimension::TIME)).transpose()?;
+    let motor_file = table.get("motor_file").map(|v| v.text()).transpose()?;
+    let tip_files = table.get("tip_files").map_or_else(Vec::new, |value| value.one_or_list());
+    let tip_files =
+        tip_files.iter().map(|v| v.text().map(PathBuf::from)).collect::<Result<_, _>>()?;
     Ok(RunSpec {
         file: PathBuf::from(file),
         name: name.to_owned(),
         omega_rad_s,
         skip_s: own_skip.or(skip_s).unwrap_or(0.0),
+        motor_file: motor_file.map(PathBuf::from),
+        tip_files,
+        part: None,
     })
 }

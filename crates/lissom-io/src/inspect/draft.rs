@@ -8,12 +8,13 @@ use lissom_formats::Format;
 use super::draft_error::DraftError;
 use super::inspected_channel::InspectedChannel;
 use super::inspection::Inspection;
+use super::own_log::OwnLog;
 use super::relations::Relation;
 use super::roles::Role;
 use super::stated_unit::UnitSource;
 use super::user_choice::{Choice, CommandKey, quoted};
 use super::words::{commanded, words};
-use crate::log::bare_name;
+use crate::log::{LogPath, bare_name};
 use crate::units::{Dimension, parse_any_unit};
 
 /// What a user says about logs. What is absent is taken from the log where it is unambiguous.
@@ -23,6 +24,8 @@ pub struct Description {
     pub time: Option<Choice>,
     /// The sample time of logs without stamps, as in "1 ms".
     pub sample_time: Option<String>,
+    /// The column with the number of the run, if a log has several.
+    pub run: Option<String>,
     /// The command.
     pub command: Option<(CommandKey, Choice)>,
     /// The motor's angle, position or speed.
@@ -90,6 +93,7 @@ impl CampaignDraft {
     ) -> Result<Self, DraftError> {
         let signals = Signals { log, said };
         let mut lines = vec![Line::said("[signals]".to_owned()), signals.time()?];
+        lines.extend(signals.run()?);
         lines.push(signals.command()?);
         lines.push(signals.motor()?);
         lines.extend(signals.speed()?);
@@ -170,9 +174,10 @@ fn one_line(text: &str) -> String {
 /// The table of a run, named as its file if no other file has that name.
 fn run(file: &Path, files: &[PathBuf]) -> Line {
     let mut text = format!("\n[[runs]]\nfile = {}", quoted(&file.display().to_string()));
-    let only = files.iter().filter(|f| f.file_name() == file.file_name()).count() == 1;
-    if let Some(name) = file.file_name().filter(|name| only && **name != *file.as_os_str()) {
-        let _ = write!(text, "\nname = {}", quoted(&name.to_string_lossy()));
+    let name = LogPath::of(file).name();
+    let only = files.iter().filter(|f| LogPath::of(f).name() == name).count() == 1;
+    if only && name != file.display().to_string() {
+        let _ = write!(text, "\nname = {}", quoted(&name));
     }
     Line::said(text)
 }
@@ -183,14 +188,14 @@ fn toml_value(value: &str) -> String {
 }
 
 /// Makes the lines of `[signals]`.
-struct Signals<'a> {
-    log: &'a Inspection,
-    said: &'a Description,
+pub(super) struct Signals<'a> {
+    pub(super) log: &'a Inspection,
+    pub(super) said: &'a Description,
 }
 
 /// A channel for a role: which, why, and what the user says about it.
-struct Picked<'a> {
-    channel: &'a InspectedChannel,
+pub(super) struct Picked<'a> {
+    pub(super) channel: &'a InspectedChannel,
     why: Option<String>,
     choice: Option<&'a Choice>,
 }
@@ -205,7 +210,7 @@ impl<'a> Signals<'a> {
     }
 
     /// The channel that the user names.
-    fn named(&self, choice: &'a Choice) -> Result<Picked<'a>, DraftError> {
+    pub(super) fn named(&self, choice: &'a Choice) -> Result<Picked<'a>, DraftError> {
         let wanted = choice.column.as_str();
         let channels = &self.log.channels;
         let by = |fits: &dyn Fn(&str) -> bool| {
@@ -226,7 +231,7 @@ impl<'a> Signals<'a> {
     }
 
     /// The channel for a role: the one that the user names, or the one that is guessed.
-    fn pick(
+    pub(super) fn pick(
         &self,
         role: Role,
         said: Option<&'a Choice>,
@@ -251,7 +256,7 @@ impl<'a> Signals<'a> {
     }
 
     /// A table `{ column = …, unit = … }` with further keys.
-    fn table(
+    pub(super) fn table(
         &self,
         role: Role,
         picked: &Picked<'_>,
@@ -332,6 +337,13 @@ impl<'a> Signals<'a> {
         })
     }
 
+    fn run(&self) -> Result<Option<Line>, DraftError> {
+        let Some(column) = &self.said.run else { return Ok(None) };
+        let choice = Choice { column: column.clone(), unit: None, keys: Vec::new() };
+        let channel = self.named(&choice)?.channel;
+        Ok(Some(Line::said(format!("run = {}", self.column(channel)))))
+    }
+
     fn command(&self) -> Result<Line, DraftError> {
         let (key, role, picked) = if let Some((key, choice)) = &self.said.command {
             let role = match key {
@@ -395,6 +407,14 @@ impl<'a> Signals<'a> {
     }
 
     fn motor(&self) -> Result<Line, DraftError> {
+        if let Some(choice) = &self.said.motor
+            && let Some(own) = OwnLog::of(choice, self.log)?
+        {
+            return Ok(match own.table(Role::Motor, self.said.time.as_ref())? {
+                Ok((table, _)) => Line::said(format!("motor = {table}")),
+                Err(error) => Line::missing("motor = { column = \"?\" }", error),
+            });
+        }
         let mut picked = self.pick(Role::Motor, self.said.motor.as_ref())?;
         if matches!(picked, Err(DraftError::NoRole { .. }))
             && let Ok(speed) = self.pick(Role::Speed, None)?
@@ -422,6 +442,11 @@ impl<'a> Signals<'a> {
             return Ok(Some(self.line("speed", Role::Speed, &self.named(choice)?, &[])));
         }
         // A channel that is the rate of the motor's checks its unit and that of the time stamps.
+        if let Some(choice) = &self.said.motor
+            && OwnLog::of(choice, self.log)?.is_some()
+        {
+            return Ok(None);
+        }
         let Ok(motor) = self.pick(Role::Motor, self.said.motor.as_ref())? else { return Ok(None) };
         let Some(guess) = self.log.roles.of(Role::Speed) else { return Ok(None) };
         let channel = &self.log.channels[guess.channel];
@@ -440,9 +465,15 @@ impl<'a> Signals<'a> {
     fn tips(&self) -> Result<Option<Line>, DraftError> {
         let mut tables = Vec::new();
         for choice in &self.said.tips {
-            let picked = self.named(choice)?;
-            let name = [("name", quoted(&picked.channel.label()))];
-            match self.table(Role::Tip, &picked, &name) {
+            let table = match OwnLog::of(choice, self.log)? {
+                Some(own) => own.table(Role::Tip, self.said.time.as_ref())?,
+                None => {
+                    let picked = self.named(choice)?;
+                    let name = [("name", quoted(&picked.channel.label()))];
+                    self.table(Role::Tip, &picked, &name)
+                }
+            };
+            match table {
                 Ok((table, _)) => tables.push(table),
                 Err(error) => return Ok(Some(Line::missing("tips = [{ column = \"?\" }]", error))),
             }

@@ -20,6 +20,12 @@ pub enum DraftError {
         /// What is wrong.
         reason: String,
     },
+    /// The log of a channel that has one of its own cannot be read.
+    #[error("{reason}")]
+    OwnLog {
+        /// Why, with its name.
+        reason: String,
+    },
     /// The unit is not known.
     #[error("\"{text}\": {source}")]
     Unit {
@@ -184,7 +190,7 @@ impl DraftError {
     /// What the user can do.
     pub fn hint(&self) -> Option<String> {
         match self {
-            Self::NoLog => None,
+            Self::NoLog | Self::OwnLog { .. } => None,
             Self::OtherUnit { .. } => Some(
                 "identify logs with different units apart, or bring them to the same units"
                     .to_owned(),
@@ -193,9 +199,20 @@ impl DraftError {
                 Some("write COLUMN:UNIT, as in q:deg, or counts:rad,scale=0.001534".to_owned())
             }
             Self::Unit { source, .. } => source.hint(),
+            Self::NoChannel { file, column, names }
+                if names.iter().filter(|n| n.rsplit('/').next() == Some(column)).count() > 1 =>
+            {
+                Some(format!(
+                    "channels of this name are in several groups: if these are runs, give the log as \"{file}::*\", or one of \
+                     them by its group"
+                ))
+            }
             Self::NoChannel { .. } => {
                 Some("give the name of a channel as in this list, or its number from 1".to_owned())
             }
+            Self::Several { file, names, .. } if are_in_groups(names) => Some(format!(
+                "if these are runs, give the log as \"{file}::*\", or one of them by its group"
+            )),
             Self::NoRole { role, .. } | Self::Several { role, .. } | Self::NoUnit { role, .. } => {
                 Some(format!("{}{}", with_right_units(self.option()), more(*role)))
             }
@@ -205,6 +222,13 @@ impl DraftError {
             }
         }
     }
+}
+
+/// Whether the names are those of one channel in several groups.
+fn are_in_groups(names: &[String]) -> bool {
+    let inner = |name: &String| name.rsplit_once('/').map(|(_, inner)| inner.to_owned());
+    let first = names.first().and_then(inner);
+    first.is_some() && names.iter().all(|name| inner(name) == first)
 }
 
 fn with_right_units(options: Option<String>) -> String {

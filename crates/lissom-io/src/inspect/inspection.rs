@@ -1,9 +1,10 @@
 //! A log, described before anything is known about it.
 
 use std::path::{Path, PathBuf};
+use std::sync::Arc;
 
 use lissom_core::identify::is_possible_sample_time;
-use lissom_formats::{Channel, Format, LogData, read};
+use lissom_formats::{Channel, Format, LogData};
 
 use super::clock_facts::ClockFacts;
 use super::draft_error::DraftError;
@@ -12,7 +13,7 @@ use super::relations::{MOST_CHANNELS, Relation, relation};
 use super::roles::{Guess, Role, Roles, looks_like_time};
 use super::stated_unit::{StatedUnit, stated_unit};
 use crate::io_error::Error;
-use crate::log::{LogError, bare_name};
+use crate::log::{LogPath, alike_groups, bare_name};
 
 /// Share by which the factor of a rate may differ from that of the stated units.
 const UNITS_AGREE: f64 = 0.1;
@@ -43,13 +44,30 @@ pub struct Inspection {
 /// # Errors
 /// [`Error::Log`] if the file cannot be read, is of a format that is not read, or has no table of numbers.
 pub fn inspect(path: &Path) -> Result<Inspection, Error> {
-    Ok(of_data(path, data_of(path)?))
+    let (data, groups) = first_of(path)?;
+    let mut found = of_data(path, data);
+    if groups.len() > 1 {
+        let groups = groups.join(", ");
+        found.notes.push(format!("the groups {groups} fit; this is the first of them"));
+    }
+    if let Some(groups) = alike_groups(&found.data) {
+        found.notes.push(format!(
+            "channels of the same name are in the groups {}: if these are runs, give the log as \"{}::*\", or one of them as \
+             \"{}::{}\"",
+            groups.join(", "),
+            path.display(),
+            path.display(),
+            groups[0]
+        ));
+    }
+    Ok(found)
 }
 
-fn data_of(path: &Path) -> Result<LogData, Error> {
-    let file = path.display().to_string();
-    let data = read(path).map_err(|error| LogError::of_format(file, error))?;
-    Ok(data.with_time_stamps())
+/// The first log of those that a path fits, and the groups of all.
+fn first_of(path: &Path) -> Result<(LogData, Vec<String>), Error> {
+    let mut parts = LogPath::of(path).parts()?;
+    let groups = parts.iter().map(|part| part.name.clone()).collect();
+    Ok((Arc::unwrap_or_clone(parts.swap_remove(0).data), groups))
 }
 
 fn of_data(path: &Path, data: LogData) -> Inspection {
@@ -144,7 +162,7 @@ impl Inspection {
     /// [`DraftError::OtherUnit`] with the first such channel; [`Error::Log`] if the other log cannot be read.
     pub fn same_units(&self, other: &Path) -> Result<(), Error> {
         let text = |unit: Option<StatedUnit>| unit.map(|u| u.text);
-        let data = data_of(other)?;
+        let (data, _) = first_of(other)?;
         for channel in self.channels.iter().filter(|c| !c.name.is_empty()) {
             let named = |c: &&Channel| bare_name(&c.name) == channel.name;
             let Some(same) = data.channels.iter().find(named) else { continue };

@@ -11,6 +11,7 @@ mod draft_error;
 mod inspected_channel;
 mod inspection;
 mod inspection_file;
+mod own_log;
 mod relations;
 mod roles;
 mod stated_unit;

@@ -38,7 +38,7 @@ impl CommandKey {
 }
 
 /// Keys that may follow, and whether their value is a text.
-const KEYS: [(&str, bool); 7] = [
+const KEYS: [(&str, bool); 9] = [
     ("scale", false),
     ("offset", false),
     ("radius", true),
@@ -46,6 +46,8 @@ const KEYS: [(&str, bool); 7] = [
     ("hold", true),
     ("name", true),
     ("origin", false),
+    ("time", true),
+    ("clock", true),
 ];
 
 impl Choice {

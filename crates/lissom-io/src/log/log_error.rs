@@ -136,6 +136,63 @@ pub enum LogError {
         column: String,
         /// Their numbers.
         numbers: Vec<usize>,
+        /// The groups of channels in the file.
+        groups: Vec<String>,
+    },
+    /// No group of channels fits.
+    #[error("{file}: no group of channels is \"{group}\"; {}", of_groups(.groups))]
+    NoGroup {
+        /// The file.
+        file: String,
+        /// The group wanted.
+        group: String,
+        /// The groups of the file.
+        groups: Vec<String>,
+    },
+    /// Several groups of channels fit where one is wanted.
+    #[error("{file}: \"{group}\" fits several groups of channels")]
+    SeveralGroups {
+        /// The file.
+        file: String,
+        /// The group wanted.
+        group: String,
+    },
+    /// Two logs of a run share no motion, so that the clock of one cannot be found.
+    #[error(
+        "{other}: {channel} does not show the motion of {file} at any shift of its clock (at most {:.0} % of it follows)",
+        100.0 * .explained
+    )]
+    NoSharedMotion {
+        /// The log of the run.
+        file: String,
+        /// The other log.
+        other: String,
+        /// The channel.
+        channel: String,
+        /// Largest share of the channel that follows the motion \[1\].
+        explained: f64,
+    },
+    /// Time goes back in a log to which a signal of another one belongs.
+    #[error("{file}: time goes back in this log, so that the clock of another log cannot be found")]
+    RestartWithOtherLog {
+        /// The log of the run.
+        file: String,
+    },
+    /// Two logs of a run share no time.
+    #[error("{file}: the log of a signal has no samples at the time of this log")]
+    NoSharedTime {
+        /// The log of the run.
+        file: String,
+    },
+    /// A column that should number the runs has too many different numbers.
+    #[error(
+        "{file}: column {column} has more than 10,000 different numbers: it does not number runs"
+    )]
+    RunNumbers {
+        /// The file.
+        file: String,
+        /// The column.
+        column: String,
     },
     /// No column has this number.
     #[error("{file}: there is no column {number}; the log has {columns}")]
@@ -383,10 +440,32 @@ impl LogError {
             Self::NoHeader { columns, .. } => {
                 format!("give the column's number, 1 to {columns}, as in `column = 1`")
             }
-            Self::Ambiguous { numbers, .. } => {
+            Self::Ambiguous { numbers, groups, .. } => {
                 let numbers: Vec<String> =
                     numbers.iter().take(MOST_NAMES).map(ToString::to_string).collect();
-                format!("give the column's number: {}", numbers.join(" or "))
+                let number = format!("give the column's number: {}", numbers.join(" or "));
+                let Some(first) = groups.first().filter(|_| groups.len() > 1) else {
+                    return Some(number);
+                };
+                format!(
+                    "give the group after the file, as in \"FILE::{first}\", or \"FILE::*\" if each group is a run; or {number}"
+                )
+            }
+            Self::NoGroup { groups, .. } if groups.is_empty() => {
+                "give the file alone: its channels are not in groups".to_owned()
+            }
+            Self::NoGroup { .. } | Self::SeveralGroups { .. } => {
+                "give one of the groups after the file, as in FILE::run1; * stands for any text".to_owned()
+            }
+            Self::NoSharedMotion { .. } => {
+                "check that both logs are of the same run; if both have the same clock, state it: clock = \"shared\"".to_owned()
+            }
+            Self::RestartWithOtherLog { .. } => "cut the log there, and give both parts as separate runs".to_owned(),
+            Self::NoSharedTime { .. } => {
+                "check that both logs are of the same run, and `clock`: \"shared\" needs stamps of the same clock".to_owned()
+            }
+            Self::RunNumbers { .. } => {
+                "give the column with the number of the run or trial, which is the same in many rows".to_owned()
             }
             Self::ColumnNumber { .. } => "columns are counted from 1".to_owned(),
             Self::NotANumber { found, .. } if found.contains(',') => {
@@ -444,6 +523,13 @@ fn of_speed(ratio: f64, correlation: f64) -> &'static str {
 
 /// Largest number of names in an error.
 const MOST_NAMES: usize = 40;
+
+fn of_groups(groups: &[String]) -> String {
+    match groups {
+        [] => "the file has no groups".to_owned(),
+        groups => format!("the groups are {}", listed(groups)),
+    }
+}
 
 fn listed(names: &[String]) -> String {
     let quoted: Vec<String> =

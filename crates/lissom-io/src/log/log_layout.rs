@@ -224,6 +224,7 @@ pub(super) fn find_column(
                     Err(LogError::NoColumn { file: file(), column, names: names.to_vec(), nearest })
                 }
                 _ => Err(LogError::Ambiguous {
+                    groups: Vec::new(),
                     file: file(),
                     column,
                     numbers: matches.iter().map(|index| index + 1).collect(),

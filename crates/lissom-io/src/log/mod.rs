@@ -12,7 +12,7 @@
 //! filter. Rows are counted for this, not time: a missing row shifts the later ones, which is seen as jitter.
 //!
 //! A file that is not such a text is read by `lissom_formats`: text with a preamble, in UTF-16 or compressed, exports of
-//! controllers, JSON. Channels with different stamps are then interpolated at the stamps of one of them.
+//! controllers, JSON, binary formats. `FILE::GROUP` is a group of channels in a file ([`LogPath`]). Channels with different stamps are then interpolated at the stamps of one of them.
 //!
 //! A row with the same stamp and the same values as the row above is skipped. Time that goes back is reported with the
 //! log ([`Log::time_back`]). Two rows with the same stamp and different values are an error.
@@ -21,6 +21,7 @@ mod log_body;
 mod log_columns;
 mod log_error;
 mod log_layout;
+mod log_path;
 #[cfg(test)]
 mod log_tests;
 mod one_clock;
@@ -34,6 +35,9 @@ mod thinner;
 pub use log_columns::{ColumnRef, Log, LogColumn, LogOptions, TimeBack};
 pub use log_error::LogError;
 pub(crate) use log_layout::{Delimiter, comment, is_header, number};
+pub(crate) use log_path::alike_groups;
+pub use log_path::{LogPart, LogPath};
+pub(crate) use one_clock::Series;
 pub(crate) use other_format::bare_name;
 pub use plain_log::read_log_from;
-pub use read_log::read_log;
+pub use read_log::{read_log, read_part};

@@ -7,7 +7,7 @@ use lissom_core::record::Hold;
 const SHARE_LEAST: f64 = 0.02;
 
 /// A channel with a stamp for each value.
-pub(super) struct Series {
+pub(crate) struct Series {
     time: Vec<f64>,
     value: Vec<f64>,
     hold: Hold,
@@ -17,7 +17,7 @@ pub(super) struct Series {
 
 impl Series {
     /// Of stamps and values, without the rows in which the value is missing.
-    pub(super) fn of(time: &[f64], value: &[f64], hold: Hold) -> Self {
+    pub(crate) fn of(time: &[f64], value: &[f64], hold: Hold) -> Self {
         let present = |(t, v): &(&f64, &f64)| t.is_finite() && v.is_finite();
         let (t, v): (Vec<f64>, Vec<f64>) =
             time.iter().zip(value).filter(present).map(|(t, v)| (*t, *v)).unzip();
@@ -30,8 +30,8 @@ impl Series {
     }
 
     /// The value at a time within the stamps: of a held signal the last one, of a measured one by a cubic through the
-    /// four nearest.
-    fn at(&self, time: f64) -> f64 {
+    /// four nearest. There must be at least four.
+    pub(crate) fn at(&self, time: f64) -> f64 {
         let next = self.time.partition_point(|t| *t <= time);
         if self.hold == Hold::Sampled || next >= self.time.len() {
             return self.value[next.saturating_sub(1)];

@@ -8,6 +8,7 @@ use lissom_formats::{Channel, Clock, Format, FormatError, LogData};
 use super::log_body::Body;
 use super::log_columns::{ColumnRef, Log, LogColumn, LogOptions};
 use super::log_error::LogError;
+use super::log_path::groups;
 use super::one_clock::{Series, on_one_clock};
 use crate::nearest::nearest;
 
@@ -30,7 +31,6 @@ pub(super) fn read(
         ) => return Err(first),
         (Err(source), _) => return Err(LogError::of_format(file, source)),
     };
-    let first = first.unwrap_or_else(|| LogError::NoCommonTime { file: file.clone() });
     of_data(&file, &data, time, columns, options, first)
 }
 
@@ -43,27 +43,26 @@ pub(super) fn by_row(
 ) -> Option<Log> {
     let file = path.display().to_string();
     let data = lissom_formats::read(path).ok().filter(|d| d.format == Format::TextByRow)?;
-    let unused = LogError::Empty { file: file.clone() };
-    of_data(&file, &data, time, columns, options, unused).ok()
+    of_data(&file, &data, time, columns, options, None).ok()
 }
 
-/// The columns asked for. Of plain text the error is `first`.
-fn of_data(
+/// The columns asked for. `first` is the error of a reader that tried before; of plain text it is the error.
+pub(super) fn of_data(
     file: &str,
     data: &LogData,
     time: Option<&ColumnRef>,
     columns: &[LogColumn],
     options: &LogOptions,
-    first: LogError,
+    first: Option<LogError>,
 ) -> Result<Log, LogError> {
-    let named = !matches!(data.format, Format::Text);
+    let first = first.filter(|_| matches!(data.format, Format::Text));
     let wanted: Vec<&ColumnRef> =
         time.into_iter().chain(columns.iter().map(|c| &c.column)).collect();
     let places =
         wanted.iter().map(|column| place(file, column, data)).collect::<Result<Vec<_>, _>>();
     let places = match places {
         Ok(places) => places,
-        Err(error) => return Err(if named { error } else { first }),
+        Err(error) => return Err(first.unwrap_or(error)),
     };
     for (place, column) in places.iter().zip(&wanted) {
         if let Some((row, found)) = &data.channels[*place].not_a_number {
@@ -74,8 +73,7 @@ fn of_data(
     let holds: Vec<Hold> = columns.iter().map(|c| c.hold).collect();
     let (stamps, signals) = places.split_at(usize::from(time.is_some()));
     let Some(rows) = rows(data, stamps.first().copied(), signals, &holds) else {
-        let file = file.to_owned();
-        return Err(if named { LogError::NoCommonTime { file } } else { first });
+        return Err(first.unwrap_or_else(|| LogError::NoCommonTime { file: file.to_owned() }));
     };
     let labels = wanted.iter().map(ToString::to_string).collect();
     let holds = time.map(|_| Hold::Measured).into_iter().chain(holds).collect();
@@ -83,7 +81,7 @@ fn of_data(
 }
 
 /// The index of the channel asked for: by its name, by the end of its path, or by its number.
-fn place(file: &str, wanted: &ColumnRef, data: &LogData) -> Result<usize, LogError> {
+pub(super) fn place(file: &str, wanted: &ColumnRef, data: &LogData) -> Result<usize, LogError> {
     let file = || file.to_owned();
     let name = match wanted {
         ColumnRef::Number(number) if (1..=data.channels.len()).contains(number) => {
@@ -117,7 +115,8 @@ fn place(file: &str, wanted: &ColumnRef, data: &LogData) -> Result<usize, LogErr
         }
         _ => {
             let numbers = found.iter().map(|index| index + 1).collect();
-            Err(LogError::Ambiguous { file: file(), column: name.to_owned(), numbers })
+            let column = name.to_owned();
+            Err(LogError::Ambiguous { file: file(), column, numbers, groups: groups(data) })
         }
     }
 }

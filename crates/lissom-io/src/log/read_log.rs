@@ -6,13 +6,14 @@ use std::path::Path;
 
 use super::log_columns::{ColumnRef, Log, LogColumn, LogOptions};
 use super::log_error::LogError;
+use super::log_path::{LogPart, LogPath};
 use super::other_format;
 use super::plain_log::read_log_from;
 
 /// A log with at most so many rows may have a row for each signal in place of a column.
 const FEW_ROWS: usize = 20;
 
-/// Reads the columns of a log file, and its time stamps if `time` is given.
+/// Reads the columns of a log, `FILE` or `FILE::GROUP`, and its time stamps if `time` is given.
 ///
 /// # Errors
 /// Any [`LogError`] except those about pieces and skipping.
@@ -22,6 +23,14 @@ pub fn read_log(
     columns: &[LogColumn],
     options: &LogOptions,
 ) -> Result<Log, LogError> {
+    let at = LogPath::of(path);
+    if let Some(group) = &at.group {
+        let Ok([part]) = <[LogPart; 1]>::try_from(at.parts()?) else {
+            let (file, group) = (at.file.display().to_string(), group.clone());
+            return Err(LogError::SeveralGroups { file, group });
+        };
+        return read_part(&part, time, columns, options);
+    }
     let name = path.display().to_string();
     match File::open(path).and_then(only_file) {
         Ok(file) => {
@@ -45,6 +54,19 @@ pub fn read_log(
         }
         Err(source) => Err(LogError::Open { file: name, source }),
     }
+}
+
+/// The columns of a part of a file, and its time stamps if `time` is given.
+///
+/// # Errors
+/// As [`read_log`].
+pub fn read_part(
+    part: &LogPart,
+    time: Option<&ColumnRef>,
+    columns: &[LogColumn],
+    options: &LogOptions,
+) -> Result<Log, LogError> {
+    other_format::of_data(&part.label, &part.data, time, columns, options, None)
 }
 
 /// Refuses folders, which can be opened too.

@@ -10,6 +10,7 @@ use crate::identify::findings::result_key as key;
 use crate::identify::findings::severity::Severity;
 use crate::record::Note;
 use crate::record::clock::thresholds::RESAMPLING_ERROR;
+use crate::record::other_clock::OtherClock;
 
 /// Time stamps and samples of a log.
 #[derive(Debug, Clone, PartialEq, IntoStaticStr, VariantNames)]
@@ -131,6 +132,13 @@ pub enum LogFinding {
         /// Rows of the log for each sample.
         factor: usize,
     },
+    /// A channel is from another log, whose clock was found from the motion.
+    OtherClock {
+        /// Name of the channel.
+        channel: String,
+        /// The clock.
+        clock: OtherClock,
+    },
     /// Samples at the beginning are left out, as the campaign asks.
     HeadSkipped {
         /// Time left out \[s\].
@@ -158,6 +166,9 @@ impl From<&Note> for LogFinding {
             Note::ClockRestart { joined, cut, at_s } => Self::ClockRestart { joined, cut, at_s },
             Note::RateChange { rates, at_s, first_s, last_s } => {
                 Self::RateChange { rates, at_s, first_s, last_s }
+            }
+            Note::OtherClock { ref channel, clock } => {
+                Self::OtherClock { channel: channel.clone(), clock }
             }
             Note::SpeedIntegrated => Self::SpeedIntegrated,
             Note::TurnsRemoved { count } => Self::TurnsRemoved { count },
@@ -215,6 +226,7 @@ impl fmt::Display for LogFinding {
             | Self::RepeatedReadings { .. }
             | Self::ClockRestart { .. }
             | Self::RateChange { .. } => self.clock_message(f),
+            Self::OtherClock { channel, clock } => other_clock_message(f, channel, clock),
             Self::SpeedIntegrated => f.write_str(
                 "the log has the speed of the motor: the angle is integrated from it, starting at 0",
             ),
@@ -237,6 +249,35 @@ impl fmt::Display for LogFinding {
             }
         }
     }
+}
+
+/// Writes the message of a clock that was found from the motion.
+fn other_clock_message(
+    f: &mut fmt::Formatter<'_>,
+    channel: &str,
+    clock: &OtherClock,
+) -> fmt::Result {
+    write!(
+        f,
+        "{channel} is from another log, whose clock is found from the motion: its time is that of the run's log plus \
+         {:.5} s ± {} ms (standard error; a delay of the sensor is part of it)",
+        clock.offset_s,
+        significant(1e3 * clock.offset_std_s, 2)
+    )?;
+    let (drift_ppm, std_ppm) = (1e6 * clock.drift, significant(1e6 * clock.drift_std, 2));
+    if drift_ppm.abs() > 0.0 {
+        write!(f, ", and it runs {drift_ppm:.0} ± {std_ppm} ppm faster")?;
+    } else {
+        write!(f, "; it does not drift (standard error {std_ppm} ppm)")?;
+    }
+    if let Some(repeats_s) = clock.repeats_s {
+        write!(
+            f,
+            ". The motion repeats: a time that differs by {} s fits as well",
+            significant(repeats_s, 4)
+        )?;
+    }
+    Ok(())
 }
 
 impl LogFinding {
@@ -343,7 +384,10 @@ impl Describe for LogFinding {
             | Self::SampleTimeUnlike { .. }
             | Self::TimeUnit { .. }
             | Self::Jitter { .. }
-            | Self::CommandFollowsMotor { .. } => Severity::Warning,
+            | Self::CommandFollowsMotor { .. }
+            | Self::OtherClock { clock: OtherClock { repeats_s: Some(_), .. }, .. } => {
+                Severity::Warning
+            }
             Self::Resampled { error_share, .. } if *error_share > RESAMPLING_ERROR => {
                 Severity::Warning
             }
@@ -355,6 +399,7 @@ impl Describe for LogFinding {
             | Self::RepeatedReadings { .. }
             | Self::ClockRestart { .. }
             | Self::RateChange { .. }
+            | Self::OtherClock { .. }
             | Self::SpeedIntegrated
             | Self::TurnsRemoved { .. }
             | Self::Thinned { .. }
@@ -374,6 +419,9 @@ impl Describe for LogFinding {
             Self::Resampled { error_share, .. } if *error_share > RESAMPLING_ERROR => {
                 vec![key::INERTIA, key::VISCOUS, key::RAW_RESPONSE]
             }
+            Self::OtherClock { clock: OtherClock { repeats_s: Some(_), .. }, .. } => {
+                vec![key::COUPLING, key::MODES]
+            }
             Self::Gap { .. }
             | Self::PieceDropped { .. }
             | Self::Resampled { .. }
@@ -382,6 +430,7 @@ impl Describe for LogFinding {
             | Self::RepeatedReadings { .. }
             | Self::ClockRestart { .. }
             | Self::RateChange { .. }
+            | Self::OtherClock { .. }
             | Self::SpeedIntegrated
             | Self::TurnsRemoved { .. }
             | Self::Thinned { .. }
@@ -401,6 +450,12 @@ impl Describe for LogFinding {
                 "check the unit of time; stamps that grow by 1 or 2 are often milliseconds, by 1000 or more microseconds"
             }
             Self::Jitter { .. } => "use the clock of the controller for the time stamps",
+            Self::OtherClock { clock: OtherClock { repeats_s: Some(_), .. }, .. } => {
+                "record the beginning or the end of the motion in both logs, or use a motion that does not repeat"
+            }
+            Self::OtherClock { .. } => {
+                "nothing to do; if both logs have the same clock, state it: clock = \"shared\""
+            }
             Self::Gap { .. } | Self::PieceDropped { .. } => "log without interruption",
             Self::Resampled { error_share, .. } if *error_share > RESAMPLING_ERROR => {
                 "log faster: the motion changes too much between two samples to be interpolated"

@@ -1,0 +1,264 @@
+//! Signals that are in a log of their own, with a clock of its own.
+
+use std::path::{Path, PathBuf};
+
+use lissom_core::record::other_clock::{
+    Follows, OtherClock, OtherClockError, StampedSignal, other_clock,
+};
+use lissom_core::record::{Axis, Hold, Note, TipQuantity};
+
+use super::campaign_signals::{Signals, TimeSource, TipSource};
+use super::load_runs::{camera_angle, in_si};
+use super::run_spec::RunSpec;
+use super::whole_turns;
+use crate::io_error::Error;
+use crate::log::{self, ColumnRef, LogColumn, LogError, LogOptions, Series};
+
+/// Stands for the name of the run's log, without its ending, in the name of another log.
+const RUN: &str = "{run}";
+/// A gap of more steps than this is not interpolated.
+const GAP_STEPS: f64 = 4.5;
+
+/// The log of a signal that is not in the log of its run.
+pub(super) struct OwnLog {
+    /// The file, in which `{run}` may stand for the name of the run's log.
+    pub(super) file: String,
+    /// Its time, if it is not as in the log of the run.
+    pub(super) time: Option<TimeSource>,
+    /// Whether both logs have the same clock.
+    pub(super) shared_clock: bool,
+}
+
+/// The log of a run, while signals of other logs are added to it.
+pub(super) struct RunLog<'a> {
+    pub(super) folder: &'a Path,
+    pub(super) spec: &'a RunSpec,
+    pub(super) signals: &'a Signals,
+    pub(super) options: &'a LogOptions,
+    /// The log, for messages.
+    pub(super) file: &'a str,
+}
+
+/// Signals of a run in SI; those of other logs are empty at first.
+pub(super) struct RunSignals {
+    pub(super) stamps_s: Vec<f64>,
+    pub(super) command: Vec<f64>,
+    pub(super) motor: Vec<f64>,
+    pub(super) tips: Vec<Vec<f64>>,
+    pub(super) notes: Vec<Note>,
+}
+
+/// A signal of another log.
+struct Own {
+    /// The log, for messages.
+    file: String,
+    stamps_s: Vec<f64>,
+    values: Vec<f64>,
+}
+
+impl RunLog<'_> {
+    /// Adds the signals of other logs, at the stamps of the run's log; rows outside of one of the logs are left out.
+    pub(super) fn join(&self, of: &mut RunSignals) -> Result<(), Error> {
+        let signals = self.signals;
+        if let Some(own) = &signals.motor_log {
+            let columns = [&signals.motor.column];
+            let other = self.read(own, self.spec.motor_file.as_deref(), &columns)?;
+            let mut values =
+                in_si(other.columns.into_iter().next().unwrap_or_default(), &signals.motor);
+            if signals.axis == Axis::Rotary {
+                whole_turns::remove_turns(&mut values);
+            }
+            let motor = Own { file: other.file, stamps_s: other.stamps_s, values };
+            let clock = self.clock_of_run(of, own, &motor)?;
+            let at = |stamp_s: f64| clock.map_or(stamp_s, |c| c.reference_s(stamp_s));
+            of.motor = motor.at_stamps(of, at);
+            // The clock of the motor's log, as seen from that of the run.
+            let note = clock.map(|c| OtherClock {
+                offset_s: -c.offset_s,
+                drift: -c.drift,
+                middle_s: c.middle_s + c.offset_s,
+                ..c
+            });
+            of.note("motor", note);
+        }
+        let mut files = self.spec.tip_files.iter();
+        for (k, (tip, source)) in signals.tips.iter().enumerate() {
+            let Some(own) = &signals.tip_logs[k] else { continue };
+            let columns: Vec<&ColumnRef> = match source {
+                TipSource::Column(reading) => vec![&reading.column],
+                TipSource::Camera { x, y, .. } => vec![x, y],
+            };
+            let other = self.read(own, files.next().map(PathBuf::as_path), &columns)?;
+            let mut columns = other.columns.into_iter();
+            let first = columns.next().unwrap_or_default();
+            let mut values = match source {
+                TipSource::Column(reading) => in_si(first, reading),
+                TipSource::Camera { origin, scale, .. } => {
+                    camera_angle(&first, &columns.next().unwrap_or_default(), *origin, *scale)
+                }
+            };
+            let angle = tip.quantity == TipQuantity::Angle;
+            if angle && tip.calibrated && signals.axis == Axis::Rotary {
+                whole_turns::remove_turns(&mut values);
+            }
+            let follows =
+                if angle && tip.calibrated { Follows::Angle } else { Follows::Acceleration };
+            let tip_signal = Own { file: other.file, stamps_s: other.stamps_s, values };
+            let clock = self.clock_of_tip(of, own, &tip_signal, &tip.name, follows)?;
+            of.tips[k] = tip_signal.at_stamps(of, |t| clock.map_or(t, |c| c.other_s(t)));
+            of.note(&tip.name, clock);
+        }
+        of.leave_out(self.file)
+    }
+
+    /// The clock of the run's log, with the motor's log as the reference.
+    fn clock_of_run(
+        &self,
+        of: &RunSignals,
+        own: &OwnLog,
+        motor: &Own,
+    ) -> Result<Option<OtherClock>, Error> {
+        if own.shared_clock {
+            return Ok(None);
+        }
+        let command =
+            StampedSignal { stamps_s: self.increasing(&of.stamps_s)?, values: &of.command };
+        let found = other_clock(motor.stamped(), command, Follows::Torque);
+        found.map(Some).map_err(|error| self.no_clock(error, &motor.file, "motor"))
+    }
+
+    /// The clock of a tip's log, with that of the run as the reference.
+    fn clock_of_tip(
+        &self,
+        of: &RunSignals,
+        own: &OwnLog,
+        tip: &Own,
+        name: &str,
+        follows: Follows,
+    ) -> Result<Option<OtherClock>, Error> {
+        if own.shared_clock {
+            return Ok(None);
+        }
+        let kept: Vec<usize> = (0..of.motor.len()).filter(|k| of.motor[*k].is_finite()).collect();
+        let stamps_s: Vec<f64> = kept.iter().map(|k| of.stamps_s[*k]).collect();
+        let values: Vec<f64> = kept.iter().map(|k| of.motor[*k]).collect();
+        let motor = StampedSignal { stamps_s: self.increasing(&stamps_s)?, values: &values };
+        let found = other_clock(motor, tip.stamped(), follows);
+        found.map(Some).map_err(|error| self.no_clock(error, &tip.file, name))
+    }
+
+    fn increasing<'s>(&self, stamps_s: &'s [f64]) -> Result<&'s [f64], Error> {
+        if stamps_s.windows(2).all(|pair| pair[1] > pair[0]) {
+            return Ok(stamps_s);
+        }
+        Err(LogError::RestartWithOtherLog { file: self.file.to_owned() }.into())
+    }
+
+    fn no_clock(&self, error: OtherClockError, other: &str, channel: &str) -> Error {
+        let (file, other, channel) = (self.file.to_owned(), other.to_owned(), channel.to_owned());
+        match error {
+            OtherClockError::NoSharedMotion { explained } => {
+                LogError::NoSharedMotion { file, other, channel, explained }.into()
+            }
+            _ => LogError::FewSamples { file: other, found: 0, least: 50 }.into(),
+        }
+    }
+
+    /// Reads a signal of another log.
+    fn read(
+        &self,
+        own: &OwnLog,
+        of_run: Option<&Path>,
+        columns: &[&ColumnRef],
+    ) -> Result<OwnColumns, Error> {
+        let stem =
+            self.spec.file.file_stem().map_or_else(String::new, |s| s.to_string_lossy().into());
+        let named = PathBuf::from(own.file.replace(RUN, &stem));
+        let path = self.folder.join(of_run.unwrap_or(&named));
+        let file = path.display().to_string();
+        let columns: Vec<LogColumn> = columns
+            .iter()
+            .map(|column| LogColumn { column: (*column).clone(), hold: Hold::Measured })
+            .collect();
+        let source = own.time.as_ref().unwrap_or(&self.signals.time);
+        let log = match source {
+            TimeSource::Stamps(column, _) => {
+                log::read_log(&path, Some(column), &columns, self.options)?
+            }
+            TimeSource::Steps(_) => log::read_log(&path, None, &columns, self.options)?,
+        };
+        let stamps_s: Vec<f64> = match (source, log.time) {
+            (TimeSource::Stamps(_, unit_s), Some(stamps)) => {
+                stamps.into_iter().map(|stamp| stamp * unit_s).collect()
+            }
+            (TimeSource::Steps(step_s), _) => {
+                let samples = log.columns.first().map_or(0, Vec::len);
+                (0..samples).map(|k| k as f64 * step_s * log.factor as f64).collect()
+            }
+            (TimeSource::Stamps(..), None) => Vec::new(),
+        };
+        if let Some(back) = log.time_back.first() {
+            return Err(LogError::time_back(&file, "time", back).into());
+        }
+        Ok(OwnColumns { file, stamps_s, columns: log.columns })
+    }
+}
+
+/// Columns of another log.
+struct OwnColumns {
+    file: String,
+    stamps_s: Vec<f64>,
+    columns: Vec<Vec<f64>>,
+}
+
+impl Own {
+    fn stamped(&self) -> StampedSignal<'_> {
+        StampedSignal { stamps_s: &self.stamps_s, values: &self.values }
+    }
+
+    /// The values at the stamps of the run, of which `at` gives the stamps of this log; NaN outside of it and in its gaps.
+    fn at_stamps(&self, of: &RunSignals, at: impl Fn(f64) -> f64) -> Vec<f64> {
+        let mut steps: Vec<f64> = self.stamps_s.windows(2).map(|pair| pair[1] - pair[0]).collect();
+        let middle = steps.len() / 2;
+        let median_s = match steps.is_empty() {
+            true => 0.0,
+            false => *steps.select_nth_unstable_by(middle, f64::total_cmp).1,
+        };
+        let series = Series::of(&self.stamps_s, &self.values, Hold::Measured);
+        let value = |stamp_s: &f64| {
+            let here_s = at(*stamp_s);
+            let next = self.stamps_s.partition_point(|t| *t <= here_s);
+            let bounds = next.checked_sub(1).map(|k| self.stamps_s[k]).zip(self.stamps_s.get(next));
+            match bounds {
+                Some((before_s, after_s)) if after_s - before_s <= GAP_STEPS * median_s => {
+                    series.at(here_s)
+                }
+                _ => f64::NAN,
+            }
+        };
+        of.stamps_s.iter().map(value).collect()
+    }
+}
+
+impl RunSignals {
+    fn note(&mut self, channel: &str, clock: Option<OtherClock>) {
+        let channel = channel.to_owned();
+        self.notes.extend(clock.map(|clock| Note::OtherClock { channel, clock }));
+    }
+
+    /// Leaves out the rows in which a signal of another log is missing.
+    fn leave_out(&mut self, file: &str) -> Result<(), Error> {
+        let complete = |k: &usize| {
+            self.motor[*k].is_finite() && self.tips.iter().all(|tip| tip[*k].is_finite())
+        };
+        let kept: Vec<usize> = (0..self.stamps_s.len()).filter(complete).collect();
+        if kept.len() < 2 {
+            return Err(LogError::NoSharedTime { file: file.to_owned() }.into());
+        }
+        let channels = [&mut self.stamps_s, &mut self.command, &mut self.motor];
+        for channel in channels.into_iter().chain(&mut self.tips) {
+            *channel = kept.iter().map(|k| channel[*k]).collect();
+        }
+        Ok(())
+    }
+}

@@ -1,0 +1,93 @@
+//! Files with several runs, and signals in logs of their own.
+
+use std::fmt::Write as _;
+
+use lissom_core::record::Note;
+
+use super::campaign_tests::{folder, read_logs};
+use super::read_campaign;
+
+const HEAD: &str = "[signals]\ntime = { column = \"t\", unit = \"s\" }\ncurrent = { column = \"i\", unit = \"A\", hold = \"sampled\" }\n";
+const MOTOR: &str = "motor = { column = \"q\", unit = \"rad\" }\n";
+
+/// A motion that does not repeat.
+fn angle(t: f64) -> f64 {
+    0.5 * (2.0 * t).sin() + 0.3 * (5.3 * t + 1.0).sin() + 0.1 * (9.1 * t).sin()
+}
+
+fn table(names: &str, rows: impl Iterator<Item = [f64; 3]>) -> String {
+    let mut text = format!("{names}\n");
+    for [a, b, c] in rows {
+        let _ = writeln!(text, "{a:.6},{b:.9},{c:.9}");
+    }
+    text
+}
+
+#[test]
+fn a_column_numbers_the_runs() {
+    let mut text = String::from("n,t,i,q\n");
+    for row in 0..300 {
+        // Rows of two runs alternate.
+        let (run, k) = (row % 2, row / 2);
+        let _ = writeln!(text, "{},{:.3},{},{}", 7 + run, 0.002 * f64::from(k), k, run * 1000 + k);
+    }
+    let campaign = format!("{HEAD}{MOTOR}run = \"n\"\n[[runs]]\nfile = \"a.csv\"\n");
+    let file = read_logs(&campaign, &[("a.csv", &text)]).unwrap();
+    let [first, second] = &file.campaign.runs[..] else { panic!("two runs") };
+    assert_eq!((first.name(), first.len()), ("a.csv n 7", 150));
+    assert_eq!((second.name(), second.len()), ("a.csv n 8", 150));
+    assert!((second.motor()[3] - 1003.0).abs() < 1e-9);
+    let error = read_logs(&campaign.replace("\"n\"", "\"m\""), &[("a.csv", &text)]).unwrap_err();
+    assert!(error.to_string().contains("no column \"m\""), "{error}");
+}
+
+#[test]
+fn a_group_that_does_not_exist_is_named_with_those_that_do() {
+    let campaign = format!("{HEAD}{MOTOR}[[runs]]\nfile = \"a.csv::run1\"\n");
+    let text = table("t,i,q", (0..100).map(|k| [0.01 * f64::from(k), 1.0, 2.0]));
+    let error = read_logs(&campaign, &[("a.csv", &text)]).unwrap_err().to_string();
+    assert!(error.ends_with("no group of channels is \"run1\"; the file has no groups"), "{error}");
+}
+
+#[test]
+fn a_tip_may_have_a_log_and_a_clock_of_its_own() {
+    let time = |k: i32| 0.002 * f64::from(k);
+    let motor = table("t,i,q", (0..10_000).map(time).map(|t| [t, 0.1, angle(t)]));
+    // The camera starts 1.5 s later, and its stamps 4 s earlier.
+    let frame = |k: i32| 1.5 + f64::from(k) / 60.0;
+    let camera = table("t,x,y", (0..960).map(frame).map(|t| [t - 4.0, 1.1 * angle(t), 0.0]));
+    let tip = "tips = [{ name = \"end\", column = \"x\", unit = \"rad\", file = \"{run}-camera.csv\" }]\n";
+    let campaign = format!("{HEAD}{MOTOR}{tip}[[runs]]\nfile = \"a.csv\"\n");
+    let logs: [(&str, &str); 2] = [("a.csv", &motor), ("a-camera.csv", &camera)];
+    let folder = folder(&campaign, &logs);
+    let path = folder.path().join("campaign.toml");
+    let run = &read_campaign(&path).unwrap().campaign.runs[0];
+    let [Note::OtherClock { channel, clock }] = run.notes() else { panic!("{:?}", run.notes()) };
+    assert_eq!(channel, "end");
+    assert!((clock.offset_s + 4.0).abs() < 1e-3, "{clock:?}");
+    assert!((run.time().start_s - 1.5).abs() < 0.03, "{}", run.time().start_s);
+    for (k, tip) in run.tips()[0].iter().enumerate().skip(20).take(7000) {
+        let t = run.time().start_s + 0.002 * k as f64;
+        assert!((tip - 1.1 * angle(t)).abs() < 2e-3, "{k}");
+    }
+    // With the same clock the stamps are taken as they are, and a wrong one is not noticed here.
+    let shared = campaign.replace("camera.csv\"", "camera.csv\", clock = \"shared\"");
+    std::fs::write(&path, shared).unwrap();
+    assert_eq!(read_campaign(&path).unwrap().campaign.runs[0].notes(), []);
+    // A camera of another motion.
+    let other = table("t,x,y", (0..960).map(frame).map(|t| [t, (3.3 * t).sin(), 0.0]));
+    std::fs::write(folder.path().join("a-camera.csv"), other).unwrap();
+    std::fs::write(&path, &campaign).unwrap();
+    let error = read_campaign(&path).unwrap_err();
+    assert!(error.to_string().contains("a-camera.csv: end does not show the motion of"), "{error}");
+    assert!(error.hint().unwrap().contains("clock = \"shared\""));
+}
+
+#[test]
+fn keys_of_another_log_need_its_file() {
+    let campaign = format!(
+        "{HEAD}motor = {{ column = \"q\", unit = \"rad\", clock = \"shared\" }}\n[[runs]]\nfile = \"a.csv\"\n"
+    );
+    let error = read_logs(&campaign, &[]).unwrap_err();
+    assert!(error.to_string().contains("`signals.motor.clock`"), "{error}");
+}

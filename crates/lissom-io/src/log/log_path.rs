@@ -1,0 +1,143 @@
+//! Where a log is: a file, or a group of channels in a file, written `FILE::GROUP`.
+
+use std::collections::HashSet;
+use std::path::{Path, PathBuf};
+use std::sync::Arc;
+
+use lissom_formats::{Channel, LogData};
+
+use super::log_columns::ColumnRef;
+use super::log_error::LogError;
+use super::other_format::place;
+
+/// Between a file and a group in it.
+const SEPARATOR: &str = "::";
+
+/// Where a log is: `FILE`, or `FILE::GROUP`, in which `*` stands for any text.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct LogPath {
+    /// The file.
+    pub file: PathBuf,
+    /// The group of channels in it.
+    pub group: Option<String>,
+}
+
+/// A part of a file that is a log of its own.
+#[derive(Debug, Clone)]
+pub struct LogPart {
+    /// The file with the part, for messages.
+    pub label: String,
+    /// What distinguishes the part: a group, or the number of a run with its column.
+    pub name: String,
+    /// Its channels, with time stamps.
+    pub data: Arc<LogData>,
+}
+
+impl LogPath {
+    /// Reads `FILE` or `FILE::GROUP`. A file whose name has `::` is a file.
+    pub fn of(path: &Path) -> Self {
+        let whole = || Self { file: path.to_owned(), group: None };
+        if path.exists() {
+            return whole();
+        }
+        let Some(text) = path.to_str() else { return whole() };
+        let split = |at: usize| (&text[..at], &text[at + SEPARATOR.len()..]);
+        let mut places = text.match_indices(SEPARATOR).map(|(at, _)| split(at));
+        let is_file = |(file, group): &(&str, &str)| !group.is_empty() && Path::new(file).exists();
+        let found = places.clone().find(is_file).or_else(|| places.next());
+        match found {
+            Some((file, group)) if !file.is_empty() && !group.is_empty() => {
+                Self { file: PathBuf::from(file), group: Some(group.to_owned()) }
+            }
+            _ => whole(),
+        }
+    }
+
+    /// The log without the folders of its file.
+    pub(crate) fn name(&self) -> String {
+        let file =
+            self.file.file_name().map_or_else(String::new, |n| n.to_string_lossy().into_owned());
+        self.group.as_ref().map_or(file.clone(), |group| format!("{file}{SEPARATOR}{group}"))
+    }
+
+    /// Reads the logs: one for each group that fits, or the whole file; at least one.
+    ///
+    /// # Errors
+    /// [`LogError::NoGroup`] if no group fits; others if the file cannot be read.
+    pub fn parts(&self) -> Result<Vec<LogPart>, LogError> {
+        let file = self.file.display().to_string();
+        let data = lissom_formats::read(&self.file)
+            .map_err(|error| LogError::of_format(file.clone(), error))?
+            .with_time_stamps();
+        let Some(group) = &self.group else {
+            return Ok(vec![LogPart { label: file, name: String::new(), data: Arc::new(data) }]);
+        };
+        let found = data.groups(group);
+        if found.is_empty() {
+            return Err(LogError::NoGroup { file, group: group.clone(), groups: groups(&data) });
+        }
+        let part = |(name, data): (String, LogData)| LogPart {
+            label: format!("{file}{SEPARATOR}{name}"),
+            name,
+            data: Arc::new(data),
+        };
+        Ok(found.into_iter().map(part).collect())
+    }
+}
+
+impl LogPart {
+    /// Its rows as one part for each number in a column.
+    ///
+    /// # Errors
+    /// [`LogError::NoColumn`] and others if the column cannot be found; [`LogError::RunNumbers`] if it does not number runs.
+    pub(crate) fn by_run(&self, column: &ColumnRef) -> Result<Vec<Self>, LogError> {
+        let channel = place(&self.label, column, &self.data)?;
+        if let Some((row, found)) = &self.data.channels[channel].not_a_number {
+            let (file, row, column) = (self.label.clone(), *row, column.to_string());
+            return Err(LogError::NotANumber { file, row, column, found: found.clone() });
+        }
+        let Some(found) = self.data.by_number(channel) else {
+            return Err(LogError::RunNumbers {
+                file: self.label.clone(),
+                column: column.to_string(),
+            });
+        };
+        let word = match column {
+            ColumnRef::Name(name) => name.clone(),
+            ColumnRef::Number(_) => "run".to_owned(),
+        };
+        let part = |(number, data): (f64, LogData)| {
+            let name = [&self.name[..], &format!("{word} {number}")]
+                .into_iter()
+                .filter(|text| !text.is_empty())
+                .collect::<Vec<_>>()
+                .join(" ");
+            let label = format!("{} ({word} {number})", self.label);
+            Self { label, name, data: Arc::new(data) }
+        };
+        Ok(found.into_iter().map(part).collect())
+    }
+}
+
+/// The groups at the beginnings, if two of them have a channel of the same name: they may be runs.
+pub(crate) fn alike_groups(data: &LogData) -> Option<Vec<String>> {
+    let mut names = HashSet::new();
+    let within =
+        |c: &'_ Channel| c.name.trim_start_matches('/').split_once('/').map(|(_, n)| n.to_owned());
+    let twice = data.channels.iter().filter_map(within).any(|name| !names.insert(name));
+    twice.then(|| groups(data))
+}
+
+/// The groups at the beginnings of the paths of channels.
+pub(crate) fn groups(data: &LogData) -> Vec<String> {
+    let mut found: Vec<String> = Vec::new();
+    for channel in &data.channels {
+        if let Some((group, _)) = channel.name.trim_start_matches('/').split_once('/')
+            && found.last().is_none_or(|last| last != group)
+            && !found.iter().any(|known| known == group)
+        {
+            found.push(group.to_owned());
+        }
+    }
+    found
+}
