@@ -111,7 +111,8 @@ pub(crate) fn is_text(of: &Datatype) -> bool {
 pub(crate) fn number(of: &Datatype) -> Option<Number> {
     let (kind, order) = match of {
         Datatype::FixedPoint { size, byte_order, layout } => {
-            let whole = layout.bit_offset == 0 && u32::from(layout.bit_precision) == 8 * size;
+            let whole = layout.bit_offset == 0
+                && size.checked_mul(8) == Some(u32::from(layout.bit_precision));
             (integer(*size, layout.signed).filter(|_| whole)?, byte_order)
         }
         Datatype::BitField { size, byte_order, .. } => (integer(*size, false)?, byte_order),
@@ -147,4 +148,23 @@ fn integer(size: u32, signed: bool) -> Option<NumberType> {
         (8, false) => NumberType::U64,
         _ => return None,
     })
+}
+
+#[cfg(test)]
+mod tests {
+    use hdf5_pure::FixedPointLayout;
+
+    use super::*;
+
+    #[test]
+    fn a_damaged_size_is_no_number() {
+        let layout = FixedPointLayout { signed: true, bit_offset: 0, bit_precision: 32 };
+        let of = |size| {
+            let byte_order = DatatypeByteOrder::LittleEndian;
+            number(&Datatype::FixedPoint { size, byte_order, layout })
+        };
+        assert_eq!(of(4), Some(Number::new(NumberType::I32, false)));
+        // Eight times this size is 32 in 32 bits.
+        assert_eq!(of((1 << 29) + 4), None);
+    }
 }
