@@ -1,0 +1,5 @@
+#![no_main]
+
+use lissom_fuzz::{read_text, target};
+
+target!(|bytes| read_text(bytes, true));

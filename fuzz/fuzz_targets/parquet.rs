@@ -1,0 +1,5 @@
+#![no_main]
+
+use lissom_fuzz::{read_if_begins, target};
+
+target!(|bytes| read_if_begins(bytes, &[b"PAR1"]));
