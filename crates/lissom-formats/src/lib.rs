@@ -21,6 +21,8 @@
 //!
 //! The feature `full` has all formats. Without its feature, a format is recognised, and the error states the way out.
 //!
+//! Where a text does not show its header or its decimal sign, [`read_with`] takes them as [`ReadOptions`].
+//!
 //! Text may be UTF-8, UTF-16 or Windows-1252; `.gz` and `.zst` are expanded.
 
 mod array;
@@ -45,6 +47,7 @@ mod numpy;
 mod parquet_file;
 mod parts;
 mod read;
+mod read_options;
 mod tdms;
 mod text;
 mod uff58;
@@ -56,4 +59,5 @@ mod zip;
 pub use format::Format;
 pub use format_error::FormatError;
 pub use log_data::{Channel, Clock, LogData};
-pub use read::{is_no_plain_table, read, read_bytes};
+pub use read::{is_no_plain_table, read, read_bytes, read_with};
+pub use read_options::ReadOptions;

@@ -6,6 +6,7 @@ use crate::bytes::{GZIP, ZSTD};
 use crate::format::foreign;
 use crate::format_error::FormatError;
 use crate::log_data::LogData;
+use crate::read_options::ReadOptions;
 use crate::{binary, bytes, json, text};
 
 /// Reads all channels of a log file.
@@ -13,7 +14,15 @@ use crate::{binary, bytes, json, text};
 /// # Errors
 /// [`FormatError`] if the file cannot be read, is of a format that is not read, or has no table of numbers.
 pub fn read(path: &Path) -> Result<LogData, FormatError> {
-    of_expanded(&bytes::of_file(path)?)
+    read_with(path, &ReadOptions::default())
+}
+
+/// Reads all channels of a log file; the options apply to tables in text.
+///
+/// # Errors
+/// As [`read`], and [`FormatError::Content`] if there is no table where the options state it.
+pub fn read_with(path: &Path, options: &ReadOptions) -> Result<LogData, FormatError> {
+    of_expanded(&bytes::of_file(path)?, options)
 }
 
 /// Reads all channels of a log file that is in memory.
@@ -21,10 +30,10 @@ pub fn read(path: &Path) -> Result<LogData, FormatError> {
 /// # Errors
 /// As [`read`].
 pub fn read_bytes(bytes: Vec<u8>) -> Result<LogData, FormatError> {
-    of_expanded(&bytes::expanded(bytes)?)
+    of_expanded(&bytes::expanded(bytes)?, &ReadOptions::default())
 }
 
-fn of_expanded(bytes: &[u8]) -> Result<LogData, FormatError> {
+fn of_expanded(bytes: &[u8], options: &ReadOptions) -> Result<LogData, FormatError> {
     if let Some(found) = binary::read(bytes) {
         return found;
     }
@@ -38,7 +47,7 @@ fn of_expanded(bytes: &[u8]) -> Result<LogData, FormatError> {
     {
         return Ok(found);
     }
-    text::read(&text)
+    text::read(&text, options)
 }
 
 /// Whether the first bytes of a file show that it is not a plain table: compressed, a trace of CODESYS, binary, or a format

@@ -4,7 +4,7 @@
 
 use std::fmt::Write as _;
 
-use lissom_formats::{Clock, Format, FormatError, LogData, read_bytes};
+use lissom_formats::{Clock, Format, FormatError, LogData, ReadOptions, read_bytes, read_with};
 
 /// Time in s, current in A, angle in rad.
 fn rows() -> Vec<[f64; 3]> {
@@ -215,4 +215,30 @@ fn compressed_and_foreign_files() {
             "{nothing}"
         );
     }
+}
+
+#[test]
+fn a_stated_header_row_has_the_names() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("log.csv");
+    let read = |text: String, options: ReadOptions| {
+        std::fs::write(&path, text).unwrap();
+        read_with(&path, &options)
+    };
+    let text = "1,2,3\n4,5,6\nt,100,q\ns,A,rad\nREAL,REAL,REAL\n".to_owned() + &plain(",");
+    let at = |row: usize| ReadOptions { header_row: Some(row), ..ReadOptions::default() };
+    let found = read(text.clone(), at(3)).unwrap();
+    assert_eq!(names(&found), ["t", "100", "q"]);
+    assert_eq!(found.channels[1].unit.as_deref(), Some("A"));
+    holds(&found, [0, 1, 2], [1.0; 3]);
+    let skipped = ReadOptions { skip_rows: 5, ..ReadOptions::default() };
+    holds(&read(text.clone(), skipped).unwrap(), [0, 1, 2], [1.0; 3]);
+    let error = read(text.clone(), at(500)).unwrap_err();
+    assert_eq!(error.to_string(), "row 500: no table of numbers is below this row");
+    let error = read("a title\n\n".to_owned() + &text, at(1)).unwrap_err();
+    assert_eq!(error.to_string(), "row 1: has 1 names; the table in row 8 has 3 columns");
+    let thousands = ReadOptions { decimal_comma: Some(false), ..ReadOptions::default() };
+    let found = read("t;q\n0;1,234\n1;2,345\n2;3\n".to_owned(), thousands).unwrap();
+    assert_eq!(found.channels[1].values, [1234.0, 2345.0, 3.0]);
+    assert!(!found.decimal_comma);
 }

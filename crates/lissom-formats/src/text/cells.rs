@@ -41,6 +41,52 @@ impl Separator {
     }
 }
 
+/// How a text writes decimals.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum Decimal {
+    Point,
+    Comma,
+    /// A point, and commas between thousands: `1,234.5`.
+    Grouped,
+}
+
+impl Decimal {
+    /// The usual ones first: of those with as many values the first one is taken.
+    pub(crate) const ALL: [Self; 3] = [Self::Point, Self::Comma, Self::Grouped];
+
+    /// Reads a number.
+    fn number(self, text: &str) -> Option<f64> {
+        if let Ok(value) = text.parse() {
+            return Some(value);
+        }
+        match self {
+            Self::Point => None,
+            Self::Comma => {
+                let (whole, decimals) = text.split_once(',')?;
+                let whole = grouped(whole, '.').unwrap_or_else(|| whole.to_owned());
+                let is_one =
+                    !whole.contains('.') && decimals.starts_with(|c: char| c.is_ascii_digit());
+                is_one.then(|| format!("{whole}.{decimals}").parse().ok())?
+            }
+            Self::Grouped => {
+                let (whole, decimals) = text.split_at(text.find('.').unwrap_or(text.len()));
+                format!("{}{decimals}", grouped(whole, ',')?).parse().ok()
+            }
+        }
+    }
+}
+
+/// A whole number without the signs between its thousands; `None` if it has none.
+fn grouped(text: &str, sign: char) -> Option<String> {
+    let mut groups = text.split(sign);
+    let first = groups.next()?.trim_start_matches(['-', '+']);
+    let are_digits = |group: &str| group.bytes().all(|byte| byte.is_ascii_digit());
+    let is_first = (1..=3).contains(&first.len()) && !first.starts_with('0') && are_digits(first);
+    let others = groups.clone().count();
+    let fits = is_first && others > 0 && groups.all(|g| g.len() == 3 && are_digits(g));
+    fits.then(|| text.replace(sign, ""))
+}
+
 /// What a cell contains.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) enum Cell {
@@ -53,20 +99,13 @@ pub(crate) enum Cell {
 
 impl Cell {
     /// Reads a cell. A number may be in square brackets, as NumPy and ROS print arrays of one.
-    pub(crate) fn of(cell: &str, decimal_comma: bool) -> Self {
+    pub(crate) fn of(cell: &str, decimal: Decimal) -> Self {
         if cell.is_empty() {
             return Self::Blank;
         }
         let inner =
             cell.strip_prefix('[').and_then(|c| c.strip_suffix(']')).map_or(cell, str::trim);
-        if let Ok(value) = inner.parse::<f64>() {
-            return Self::Number(value);
-        }
-        if decimal_comma
-            && let Some((whole, decimals)) = inner.split_once(',')
-            && !decimals.contains([',', '.'])
-            && let Ok(value) = format!("{whole}.{decimals}").parse::<f64>()
-        {
+        if let Some(value) = decimal.number(inner) {
             return Self::Number(value);
         }
         match inner {
@@ -96,11 +135,16 @@ mod tests {
 
     #[test]
     fn contents_of_cells() {
-        assert_eq!(Cell::of("1,5", true), Cell::Number(1.5));
-        assert_eq!(Cell::of("1,5", false), Cell::Words);
-        assert_eq!(Cell::of("[0.25]", false), Cell::Number(0.25));
-        assert_eq!(Cell::of("00:00:01.5", false), Cell::Stamp(1.5));
-        assert_eq!(Cell::of("", false), Cell::Blank);
-        assert!(matches!(Cell::of("NaN", false), Cell::Number(v) if v.is_nan()));
+        assert_eq!(Cell::of("1,5", Decimal::Comma), Cell::Number(1.5));
+        assert_eq!(Cell::of("1,5", Decimal::Point), Cell::Words);
+        assert_eq!(Cell::of("[0.25]", Decimal::Point), Cell::Number(0.25));
+        assert_eq!(Cell::of("00:00:01.5", Decimal::Point), Cell::Stamp(1.5));
+        assert_eq!(Cell::of("1.234,5", Decimal::Comma), Cell::Number(1234.5));
+        assert_eq!(Cell::of("-1,234.5", Decimal::Grouped), Cell::Number(-1234.5));
+        for other in ["0,125", "1,5", "1234,567", ",123"] {
+            assert_eq!(Cell::of(other, Decimal::Grouped), Cell::Words, "{other}");
+        }
+        assert_eq!(Cell::of("", Decimal::Point), Cell::Blank);
+        assert!(matches!(Cell::of("NaN", Decimal::Point), Cell::Number(v) if v.is_nan()));
     }
 }

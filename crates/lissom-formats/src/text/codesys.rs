@@ -1,6 +1,6 @@
 //! Traces of CODESYS: after `N.Variable; name` and `N.Data;` a row `; time in ms; value` for each sample.
 
-use super::cells::{Cell, Separator};
+use super::cells::{Cell, Decimal, Separator};
 use super::table::Column;
 use crate::format::Format;
 use crate::log_data::{Channel, Clock, LogData};
@@ -19,9 +19,9 @@ pub(crate) fn read(text: &str) -> Option<LogData> {
         let key = cells.next().unwrap_or("");
         if let (true, Some([time, value])) = (key.is_empty(), &mut data) {
             let (stamp, cell) = (cells.next().unwrap_or(""), cells.next().unwrap_or(""));
-            if Cell::of(stamp, true).is_value() {
-                time.take(stamp, true, row);
-                value.take(cell, true, row);
+            if Cell::of(stamp, Decimal::Comma).is_value() {
+                time.take(stamp, Decimal::Comma, row);
+                value.take(cell, Decimal::Comma, row);
             }
             continue;
         }

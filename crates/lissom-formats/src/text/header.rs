@@ -1,6 +1,6 @@
 //! Names and units above a table.
 
-use super::cells::{Cell, Separator};
+use super::cells::{Cell, Decimal, Separator};
 
 /// Units that stand alone in a row below the names.
 const UNITS: [&str; 40] = [
@@ -26,24 +26,54 @@ impl Header {
             above.map(|k| (k, separator.cells(unmarked(lines[k])).collect())).collect();
         let full = |cells: &[&str]| {
             let filled = cells.iter().filter(|c| !c.is_empty()).count();
-            let words = cells.iter().all(|c| !matches!(Cell::of(c, false), Cell::Number(_)));
+            let words =
+                cells.iter().all(|c| !matches!(Cell::of(c, Decimal::Point), Cell::Number(_)));
             words && 2 * filled >= width && cells.len() >= width
         };
-        let names = |at: usize, units: Option<&[&str]>| {
+        let of = |at: usize, units: Option<&[&str]>| {
             let (line, cells) = &rows[at];
-            let names = cells[..width].iter().map(|c| (*c).to_owned()).collect::<Vec<String>>();
-            let stated = |k: usize| units.and_then(|u| u.get(k)).filter(|u| !u.is_empty());
-            let unit = |(k, name): (usize, &String)| {
-                stated(k).map(|u| bare(u).to_owned()).or_else(|| in_brackets(name))
-            };
-            Self { units: names.iter().enumerate().map(unit).collect(), names, line: Some(*line) }
+            Self::of(*line, &cells[..width], units.unwrap_or_default())
         };
         match &rows[..] {
-            [(_, units), (_, above)] if is_units(units) && full(above) => names(1, Some(units)),
-            [(_, cells), ..] if full(cells) => names(0, None),
+            [(_, units), (_, above)] if is_units(units) && full(above) => of(1, Some(units)),
+            [(_, cells), ..] if full(cells) => of(0, None),
             // Without a separator at their ends, words fit where cells are separated by blanks.
             _ => Self::default(),
         }
+    }
+
+    /// The header in a row, counted from 1, above line `first`.
+    ///
+    /// # Errors
+    /// The number of names, if they are fewer than half of the columns.
+    pub(crate) fn stated(
+        lines: &[&str],
+        row: usize,
+        first: usize,
+        width: usize,
+        separator: Separator,
+    ) -> Result<Self, usize> {
+        let cells = |line: usize| -> Vec<&str> {
+            lines.get(line).map_or_else(Vec::new, |text| separator.cells(unmarked(text)).collect())
+        };
+        let line = row.saturating_sub(1);
+        let mut names = cells(line);
+        let filled = names.iter().take(width).filter(|c| !c.is_empty()).count();
+        if 2 * filled < width {
+            return Err(filled);
+        }
+        names.resize(width, "");
+        let units = (row..first).map(cells).find(|cells| is_units(cells));
+        Ok(Self::of(line, &names, &units.unwrap_or_default()))
+    }
+
+    fn of(line: usize, cells: &[&str], units: &[&str]) -> Self {
+        let names: Vec<String> = cells.iter().map(|cell| (*cell).to_owned()).collect();
+        let stated = |k: usize| units.get(k).filter(|unit| !unit.is_empty());
+        let unit = |(k, name): (usize, &String)| {
+            stated(k).map(|unit| bare(unit).to_owned()).or_else(|| in_brackets(name))
+        };
+        Self { units: names.iter().enumerate().map(unit).collect(), names, line: Some(line) }
     }
 }
 

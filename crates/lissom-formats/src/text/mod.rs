@@ -3,6 +3,7 @@
 mod cells;
 mod codesys;
 mod decode;
+mod find;
 mod header;
 mod stamps;
 mod table;
@@ -10,16 +11,27 @@ mod twincat;
 
 pub(crate) use decode::decoded;
 #[cfg(feature = "xlsx")]
-pub(crate) use table::find_in_tabs;
+pub(crate) use find::find_in_tabs;
 
 use crate::format_error::FormatError;
 use crate::log_data::LogData;
+use crate::read_options::ReadOptions;
 
 /// Reads a text that contains a table.
-pub(crate) fn read(text: &str) -> Result<LogData, FormatError> {
+pub(crate) fn read(text: &str, options: &ReadOptions) -> Result<LogData, FormatError> {
     if let Some(found) = codesys::read(text) {
         return Ok(found);
     }
-    let table = table::find(text).ok_or(FormatError::NoTable)?;
-    twincat::read(&table).map_or_else(|| table.read(), Ok)
+    let ReadOptions { header_row, skip_rows, decimal_comma } = *options;
+    let above = skip_rows.max(header_row.unwrap_or(0));
+    let table = find::find(text, above, decimal_comma).ok_or_else(|| match above {
+        0 => FormatError::NoTable,
+        row => FormatError::content(format!("row {row}"), "no table of numbers is below this row"),
+    })?;
+    if header_row.is_none()
+        && let Some(found) = twincat::read(&table)
+    {
+        return Ok(found);
+    }
+    table.read(header_row)
 }

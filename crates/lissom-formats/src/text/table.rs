@@ -1,19 +1,14 @@
-//! The table of numbers in a text: the first long block of rows with the same number of cells.
+//! The table of numbers in a text, and its columns.
 
-use super::cells::{Cell, Separator};
+use super::cells::{Cell, Decimal, Separator};
+use super::find::{MANY_COLUMNS, is_skipped};
 use super::header::Header;
 use crate::format::Format;
 use crate::format_error::FormatError;
 use crate::log_data::{Channel, LogData};
 
-/// A block of so many rows is a table; a shorter one only if there is no other.
-const LONG: usize = 8;
-/// Rows at the beginning of a block whose longest gives its width.
-const FIRST_ROWS: usize = 100;
-/// A table with at most so many rows, …
+/// A table with at most so many rows may have one row for each signal.
 const FEW_ROWS: usize = 20;
-/// … and at least so many columns has one row for each signal.
-const MANY_COLUMNS: usize = 50;
 /// Lines after the table that may contain something else.
 const LAST_LINES: usize = 3;
 
@@ -21,105 +16,19 @@ const LAST_LINES: usize = 3;
 pub(crate) struct Table<'a> {
     pub(crate) lines: Vec<&'a str>,
     pub(crate) separator: Separator,
-    pub(crate) decimal_comma: bool,
+    pub(crate) decimal: Decimal,
     /// First line of numbers, from 0.
     pub(crate) first: usize,
     /// One line after the last one of the block.
     pub(crate) end: usize,
     pub(crate) width: usize,
-    ends_in_a_row: bool,
-}
-
-/// Finds the table.
-pub(crate) fn find(text: &str) -> Option<Table<'_>> {
-    let separators = Separator::ALL.into_iter().flat_map(|s| [(s, false), (s, true)]);
-    find_separated(text, separators.filter(|found| *found != (Separator::Char(','), true)))
-}
-
-/// Finds the table in a text whose cells are separated by tabs.
-#[cfg(feature = "xlsx")]
-pub(crate) fn find_in_tabs(text: &str) -> Option<Table<'_>> {
-    find_separated(text, std::iter::once((Separator::Char('\t'), false)))
-}
-
-/// Finds the table with one of these separators, with or without a decimal comma.
-fn find_separated(
-    text: &str,
-    candidates: impl Iterator<Item = (Separator, bool)>,
-) -> Option<Table<'_>> {
-    let lines: Vec<&str> = text.lines().collect();
-    let ends_in_a_row = !text.ends_with(['\n', '\r']);
-    let mut best = None;
-    let mut most = (false, 0);
-    for (separator, decimal_comma) in candidates {
-        let Some((first, end, width)) = block(&lines, separator, decimal_comma) else { continue };
-        let rows = end - first;
-        let rank = (rows >= LONG || width >= MANY_COLUMNS, width.min(2) * rows);
-        if rank > most {
-            most = rank;
-            best = Some((separator, decimal_comma, first, end, width));
-        }
-    }
-    let (separator, decimal_comma, first, end, width) = best?;
-    Some(Table { lines, separator, decimal_comma, first, end, width, ends_in_a_row })
-}
-
-/// First line, end and width of the first long block of rows of numbers, else of the longest.
-fn block(lines: &[&str], separator: Separator, comma: bool) -> Option<(usize, usize, usize)> {
-    let mut best: Option<(usize, usize, usize)> = None;
-    let mut at = 0;
-    while at < lines.len() {
-        if filled(lines[at], separator, comma).is_none_or(|width| width < 2) {
-            at += 1;
-            continue;
-        }
-        let first = at;
-        let mut width = 0;
-        while at < lines.len() {
-            let line = lines[at];
-            if !skipped(line) {
-                let Some(cells) = filled(line, separator, comma) else { break };
-                let grows = at < first + FIRST_ROWS;
-                if cells > width && !grows {
-                    break;
-                }
-                width = width.max(cells);
-            }
-            at += 1;
-        }
-        if best.is_none_or(|(f, e, _)| at - first > e - f) {
-            best = Some((first, at, width));
-        }
-        if at - first >= LONG {
-            break;
-        }
-    }
-    best
-}
-
-fn skipped(line: &str) -> bool {
-    let line = line.trim_start();
-    line.is_empty() || line.starts_with(['#', '%'])
-}
-
-/// Number of cells up to the last filled one, if most of them are values.
-fn filled(line: &str, separator: Separator, comma: bool) -> Option<usize> {
-    let (mut values, mut words, mut last) = (0_usize, 0_usize, 0);
-    for (k, cell) in separator.cells(line).enumerate() {
-        match Cell::of(cell, comma) {
-            Cell::Blank => continue,
-            Cell::Words => words += 1,
-            _ => values += 1,
-        }
-        last = k + 1;
-    }
-    (values > words).then_some(last)
+    pub(super) ends_in_a_row: bool,
 }
 
 impl Table<'_> {
-    /// Its channels.
-    pub(crate) fn read(&self) -> Result<LogData, FormatError> {
-        let rows = (self.first..self.end).filter(|k| !skipped(self.lines[*k])).count();
+    /// Its channels; the names are in the row `header_row`, if it is stated.
+    pub(crate) fn read(&self, header_row: Option<usize>) -> Result<LogData, FormatError> {
+        let rows = (self.first..self.end).filter(|k| !is_skipped(self.lines[*k])).count();
         if (2..=FEW_ROWS).contains(&rows) && self.width >= MANY_COLUMNS && self.width > 4 * rows {
             return Ok(self.by_rows());
         }
@@ -133,7 +42,7 @@ impl Table<'_> {
             notes.push(format!("row {} is incomplete and left out", last + 1));
             end = last;
         }
-        let after = (end..self.lines.len()).filter(|k| !skipped(self.lines[*k]));
+        let after = (end..self.lines.len()).filter(|k| !is_skipped(self.lines[*k]));
         let after: Vec<usize> = after.filter(|k| *k != last || end > last).collect();
         if after.len() > LAST_LINES {
             let row = after[0];
@@ -141,13 +50,29 @@ impl Table<'_> {
             let reason = format!("the table of numbers ends at \"{text}\", and more follows");
             return Err(FormatError::content(format!("row {}", row + 1), reason));
         }
-        let header = Header::above(&self.lines, self.first, self.width, self.separator);
+        let header = self.header(header_row)?;
         if self.first > header.line.map_or(0, |line| line + 1) + 1 || header.line > Some(0) {
             let above = header.line.unwrap_or(self.first);
             notes.push(format!("{above} lines above the table are left out"));
         }
         let channels = self.columns(&header, end);
-        Ok(LogData { format: Format::Text, channels, decimal_comma: self.decimal_comma, notes })
+        Ok(LogData {
+            format: Format::Text,
+            channels,
+            decimal_comma: self.decimal == Decimal::Comma,
+            notes,
+        })
+    }
+
+    fn header(&self, row: Option<usize>) -> Result<Header, FormatError> {
+        let Some(row) = row else {
+            return Ok(Header::above(&self.lines, self.first, self.width, self.separator));
+        };
+        Header::stated(&self.lines, row, self.first, self.width, self.separator).map_err(|names| {
+            let (first, width) = (self.first + 1, self.width);
+            let reason = format!("has {names} names; the table in row {first} has {width} columns");
+            FormatError::content(format!("row {row}"), reason)
+        })
     }
 
     fn cells_in(&self, line: usize) -> usize {
@@ -159,12 +84,12 @@ impl Table<'_> {
         let rows = end - self.first;
         let mut columns: Vec<Column> = (0..self.width).map(|_| Column::new(rows)).collect();
         for row in self.first..end {
-            if skipped(self.lines[row]) {
+            if is_skipped(self.lines[row]) {
                 continue;
             }
             let mut cells = self.separator.cells(self.lines[row]);
             for column in &mut columns {
-                column.take(cells.next().unwrap_or(""), self.decimal_comma, row + 1);
+                column.take(cells.next().unwrap_or(""), self.decimal, row + 1);
             }
         }
         let named = |(k, column): (usize, Column)| {
@@ -176,14 +101,13 @@ impl Table<'_> {
 
     /// One row for each signal, with its name in the first cell or without a name.
     fn by_rows(&self) -> LogData {
-        let rows = (self.first..self.end).filter(|k| !skipped(self.lines[*k]));
+        let rows = (self.first..self.end).filter(|k| !is_skipped(self.lines[*k]));
         let channel = |row: usize| {
             let cells: Vec<&str> = self.separator.cells(self.lines[row]).collect();
-            let named =
-                cells.first().is_some_and(|c| Cell::of(c, self.decimal_comma) == Cell::Words);
+            let named = cells.first().is_some_and(|c| Cell::of(c, self.decimal) == Cell::Words);
             let mut column = Column::new(cells.len());
             for cell in &cells[usize::from(named)..] {
-                column.take(cell, self.decimal_comma, row + 1);
+                column.take(cell, self.decimal, row + 1);
             }
             let name = if named { cells[0].to_owned() } else { String::new() };
             let unit = super::header::in_brackets(&name);
@@ -192,7 +116,7 @@ impl Table<'_> {
         LogData {
             format: Format::TextByRow,
             channels: rows.map(channel).collect(),
-            decimal_comma: self.decimal_comma,
+            decimal_comma: self.decimal == Decimal::Comma,
             notes: Vec::new(),
         }
     }
@@ -216,8 +140,8 @@ impl Column {
         Self { values, epoch_s: None, last_s: 0.0, not_a_number: None }
     }
 
-    pub(crate) fn take(&mut self, cell: &str, decimal_comma: bool, row: usize) {
-        let value = match Cell::of(cell, decimal_comma) {
+    pub(crate) fn take(&mut self, cell: &str, decimal: Decimal, row: usize) {
+        let value = match Cell::of(cell, decimal) {
             Cell::Number(value) => value,
             Cell::Stamp(stamp_s) => {
                 let epoch_s = *self.epoch_s.get_or_insert(stamp_s);

@@ -2,7 +2,7 @@
 //!
 //! Above the numbers are rows of pairs, `Name⇥iq⇥Name⇥pos`, one pair for each signal.
 
-use super::cells::Separator;
+use super::cells::{Decimal, Separator};
 use super::header::Header;
 use super::table::Table;
 use crate::format::Format;
@@ -34,7 +34,7 @@ pub(crate) fn read(table: &Table<'_>) -> Option<LogData> {
     Some(LogData {
         format: Format::TwinCat,
         channels: columns.into_iter().enumerate().map(channel).collect(),
-        decimal_comma: table.decimal_comma,
+        decimal_comma: table.decimal == Decimal::Comma,
         notes: Vec::new(),
     })
 }

@@ -1,0 +1,120 @@
+//! Finds the table of numbers in a text: the first long block of rows with the same number of cells.
+
+use super::cells::{Cell, Decimal, Separator};
+use super::table::Table;
+
+/// A block of so many rows is a table; a shorter one only if there is no other.
+const LONG: usize = 8;
+/// Rows at the beginning of a block whose longest gives its width.
+const FIRST_ROWS: usize = 100;
+/// A table with at least so many columns may have one row for each signal.
+pub(super) const MANY_COLUMNS: usize = 50;
+
+/// Finds the table below the first `skipped` lines, with a decimal comma or without one if that is stated.
+pub(crate) fn find(text: &str, skipped: usize, decimal_comma: Option<bool>) -> Option<Table<'_>> {
+    let separators = Separator::ALL.into_iter();
+    let candidates = separators.flat_map(|s| Decimal::ALL.map(|decimal| (s, decimal)));
+    let fits = |decimal: Decimal| decimal_comma.is_none_or(|c| c == (decimal == Decimal::Comma));
+    find_separated(text, skipped, candidates.filter(|(_, decimal)| fits(*decimal)))
+}
+
+/// Finds the table in a text whose cells are separated by tabs.
+#[cfg(feature = "xlsx")]
+pub(crate) fn find_in_tabs(text: &str) -> Option<Table<'_>> {
+    find_separated(text, 0, std::iter::once((Separator::Char('\t'), Decimal::Point)))
+}
+
+/// Finds the table with one of these separators and decimal signs: that with most values.
+fn find_separated(
+    text: &str,
+    skipped: usize,
+    candidates: impl Iterator<Item = (Separator, Decimal)>,
+) -> Option<Table<'_>> {
+    let lines: Vec<&str> = text.lines().collect();
+    let ends_in_a_row = !text.ends_with(['\n', '\r']);
+    let mut best = None;
+    let mut most = (false, 0);
+    for (separator, decimal) in candidates {
+        let Some(block) = block(&lines, skipped, separator, decimal) else { continue };
+        let rank = (block.end - block.first >= LONG || block.width >= MANY_COLUMNS, block.values);
+        if rank > most {
+            most = rank;
+            best = Some((separator, decimal, block));
+        }
+    }
+    let (separator, decimal, Block { first, end, width, .. }) = best?;
+    Some(Table { lines, separator, decimal, first, end, width, ends_in_a_row })
+}
+
+/// A block of rows of numbers.
+struct Block {
+    first: usize,
+    end: usize,
+    width: usize,
+    /// Cells with values, less those with words.
+    values: usize,
+}
+
+/// The first long block of rows of numbers, else the longest.
+fn block(lines: &[&str], skipped: usize, separator: Separator, decimal: Decimal) -> Option<Block> {
+    let mut best: Option<Block> = None;
+    let mut at = skipped;
+    while at < lines.len() {
+        if Row::of(lines[at], separator, decimal).is_none_or(|row| row.width < 2) {
+            at += 1;
+            continue;
+        }
+        let mut block = Block { first: at, end: at, width: 0, values: 0 };
+        while let Some(line) = lines.get(block.end) {
+            if !is_skipped(line) {
+                let Some(row) = Row::of(line, separator, decimal) else { break };
+                let grows = block.end < block.first + FIRST_ROWS;
+                if row.width > block.width && !grows {
+                    break;
+                }
+                block.width = block.width.max(row.width);
+                block.values += row.values;
+            }
+            block.end += 1;
+        }
+        at = block.end;
+        let is_long = block.end - block.first >= LONG;
+        if best.as_ref().is_none_or(|b| block.end - block.first > b.end - b.first) {
+            best = Some(block);
+        }
+        if is_long {
+            break;
+        }
+    }
+    best
+}
+
+/// Whether a line belongs to no table: it is blank or a comment.
+pub(super) fn is_skipped(line: &str) -> bool {
+    let line = line.trim_start();
+    line.is_empty() || line.starts_with(['#', '%'])
+}
+
+/// A row of numbers.
+struct Row {
+    /// Number of cells up to the last filled one.
+    width: usize,
+    /// Cells with values, less those with words.
+    values: usize,
+}
+
+impl Row {
+    /// A line as a row; `None` if most of its cells are no values.
+    fn of(line: &str, separator: Separator, decimal: Decimal) -> Option<Self> {
+        let (mut values, mut words, mut width) = (0_usize, 0_usize, 0);
+        for (k, cell) in separator.cells(line).enumerate() {
+            match Cell::of(cell, decimal) {
+                Cell::Blank => continue,
+                Cell::Words => words += 1,
+                _ => values += 1,
+            }
+            width = k + 1;
+        }
+        (values > words).then(|| Self { width, values: values - words })
+    }
+}
