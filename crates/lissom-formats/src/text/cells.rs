@@ -1,6 +1,6 @@
 //! Cells of a row, and what they contain.
 
-use super::stamps;
+use super::stamps::Stamp;
 
 /// What separates the cells of a row.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -92,8 +92,8 @@ fn grouped(text: &str, sign: char) -> Option<String> {
 pub(crate) enum Cell {
     Blank,
     Number(f64),
-    /// A date or a time of day, in seconds.
-    Stamp(f64),
+    /// A date or a time of day.
+    Stamp(Stamp),
     Words,
 }
 
@@ -112,7 +112,7 @@ impl Cell {
             "true" | "True" | "TRUE" => Self::Number(1.0),
             "false" | "False" | "FALSE" => Self::Number(0.0),
             "NA" | "N/A" | "null" | "None" | "-" | "<NA>" => Self::Blank,
-            _ => stamps::seconds(inner).map_or(Self::Words, Self::Stamp),
+            _ => Stamp::of(inner).map_or(Self::Words, Self::Stamp),
         }
     }
 
@@ -138,7 +138,7 @@ mod tests {
         assert_eq!(Cell::of("1,5", Decimal::Comma), Cell::Number(1.5));
         assert_eq!(Cell::of("1,5", Decimal::Point), Cell::Words);
         assert_eq!(Cell::of("[0.25]", Decimal::Point), Cell::Number(0.25));
-        assert_eq!(Cell::of("00:00:01.5", Decimal::Point), Cell::Stamp(1.5));
+        assert!(matches!(Cell::of("00:00:01.5", Decimal::Point), Cell::Stamp(_)));
         assert_eq!(Cell::of("1.234,5", Decimal::Comma), Cell::Number(1234.5));
         assert_eq!(Cell::of("-1,234.5", Decimal::Grouped), Cell::Number(-1234.5));
         for other in ["0,125", "1,5", "1234,567", ",123"] {

@@ -3,6 +3,7 @@
 use super::cells::{Cell, Decimal, Separator};
 use super::find::{MANY_COLUMNS, is_skipped};
 use super::header::Header;
+use super::stamps::{DAY_S, HALF_DAY_S, Stamp};
 use crate::format::Format;
 use crate::format_error::FormatError;
 use crate::log_data::{Channel, LogData};
@@ -126,28 +127,25 @@ impl Table<'_> {
 pub(crate) struct Column {
     values: Vec<f64>,
     /// The first stamp, from which stamps are counted: so their decimals are kept.
-    epoch_s: Option<f64>,
+    first: Option<Stamp>,
+    /// A time of day that goes back by more than half a day passed midnight.
     last_s: f64,
     not_a_number: Option<(usize, String)>,
 }
 
-/// A time of day that goes back by more than this passed midnight.
-const HALF_A_DAY_S: f64 = 43_200.0;
-
 impl Column {
     pub(crate) fn new(rows: usize) -> Self {
         let values = Vec::with_capacity(rows);
-        Self { values, epoch_s: None, last_s: 0.0, not_a_number: None }
+        Self { values, first: None, last_s: 0.0, not_a_number: None }
     }
 
     pub(crate) fn take(&mut self, cell: &str, decimal: Decimal, row: usize) {
         let value = match Cell::of(cell, decimal) {
             Cell::Number(value) => value,
-            Cell::Stamp(stamp_s) => {
-                let epoch_s = *self.epoch_s.get_or_insert(stamp_s);
-                let mut since_s = stamp_s - epoch_s;
-                if stamp_s < 86_400.0 && self.last_s - since_s > HALF_A_DAY_S {
-                    since_s += 86_400.0;
+            Cell::Stamp(stamp) => {
+                let mut since_s = stamp.since_s(*self.first.get_or_insert(stamp));
+                if !stamp.has_date() && self.last_s - since_s > HALF_DAY_S {
+                    since_s += DAY_S;
                 }
                 self.last_s = since_s;
                 since_s
@@ -162,7 +160,7 @@ impl Column {
     }
 
     pub(crate) fn channel(self, name: String, unit: Option<String>) -> Channel {
-        let unit = if self.epoch_s.is_some() { Some("s".to_owned()) } else { unit };
+        let unit = if self.first.is_some() { Some("s".to_owned()) } else { unit };
         let Self { values, not_a_number, .. } = self;
         Channel { unit, not_a_number, ..Channel::of(name, values) }
     }
