@@ -116,7 +116,8 @@ impl Collected {
             let names = names.listed();
             self.notes.push(format!("left out: {names} ({}); {}", why.what, why.way_out));
         }
-        let Self { channels, notes, .. } = self;
+        let Self { mut channels, notes, .. } = self;
+        channels.iter_mut().for_each(Channel::take_unit_of_name);
         Ok(LogData { format, channels, decimal_comma: false, notes })
     }
 }

@@ -12,6 +12,10 @@ pub enum Format {
     Text,
     /// Text with one row for each signal.
     TextByRow,
+    /// Text with one row for each value: its time, the name of its signal, and the value.
+    TextByValue,
+    /// LabVIEW measurement file of several segments.
+    LabView,
     /// Export of TwinCAT Scope.
     TwinCat,
     /// Trace of CODESYS.
@@ -46,6 +50,8 @@ impl Format {
         match self {
             Self::Text => "delimited text",
             Self::TextByRow => "text with one row for each signal",
+            Self::TextByValue => "text with one row for each value",
+            Self::LabView => "LabVIEW measurement file",
             Self::TwinCat => "TwinCAT Scope export",
             Self::Codesys => "CODESYS trace",
             Self::Json => "JSON",

@@ -12,11 +12,13 @@ use crate::log_data::{Channel, LogData};
 
 /// Most numbers of a list inside a record that become channels.
 const MOST_ITEMS: usize = 64;
+/// Most names of channels in a list of a note.
+const MOST_NAMES: usize = 5;
 
 /// Reads a text; `None` if it is not JSON.
 pub(crate) fn read(text: &str) -> Result<Option<LogData>, FormatError> {
     let mut notes = Vec::new();
-    let channels = match serde_json::from_str::<Value>(text) {
+    let mut channels = match serde_json::from_str::<Value>(text) {
         Ok(value) => of_value(&value),
         Err(error) => {
             let lines: Vec<&str> = text.lines().filter(|l| !l.trim().is_empty()).collect();
@@ -40,7 +42,36 @@ pub(crate) fn read(text: &str) -> Result<Option<LogData>, FormatError> {
     if channels.is_empty() {
         return Err(FormatError::NoTable);
     }
+    channels.iter_mut().for_each(Channel::take_unit_of_name);
+    notes.extend(gaps(&channels));
     Ok(Some(LogData { format: Format::Json, channels, decimal_comma: false, notes }))
+}
+
+/// Notes about values that are missing.
+fn gaps(channels: &[Channel]) -> Vec<String> {
+    let names = |of: &[&Channel]| {
+        let first: Vec<&str> = of.iter().take(MOST_NAMES).map(|c| c.name.as_str()).collect();
+        let more = if of.len() > first.len() { ", ..." } else { "" };
+        first.join(", ") + more
+    };
+    let has_gaps = |channel: &&Channel| channel.values.iter().any(|value| value.is_nan());
+    let with_gaps: Vec<&Channel> = channels.iter().filter(has_gaps).collect();
+    let mut notes = Vec::new();
+    if !with_gaps.is_empty() {
+        notes.push(format!("values are missing, null or text in {}", names(&with_gaps)));
+    }
+    let mut lengths: Vec<usize> = channels.iter().map(|channel| channel.values.len()).collect();
+    lengths.sort_unstable();
+    lengths.dedup();
+    if lengths.len() > 1 {
+        let of_length = |length: &usize| {
+            let of = |channel: &&Channel| channel.values.len() == *length;
+            format!("{length} in {}", names(&channels.iter().filter(of).collect::<Vec<_>>()))
+        };
+        let lengths: Vec<String> = lengths.iter().map(of_length).collect();
+        notes.push(format!("the arrays differ in length: {}", lengths.join("; ")));
+    }
+    notes
 }
 
 /// The channels of a document.

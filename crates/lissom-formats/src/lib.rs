@@ -6,6 +6,10 @@
 //! | format | what is read |
 //! |---|---|
 //! | delimited text | preambles of any length, header, row of units, time stamps, blank cells, one row per signal |
+//! | CSV of oscilloscopes | units and the time between two samples from the lines above the table |
+//! | CSV of ROS | seconds and nanoseconds in two columns are a further channel `time` |
+//! | long tables, AdvantageScope | rows of time, name and value: each name with its own clock |
+//! | LabVIEW `.lvm` | all segments one after the other, units, and times from `X0` and `Delta_X` |
 //! | TwinCAT Scope, CODESYS trace | each channel with its own clock |
 //! | JSON | arrays, records, lines |
 //! | MATLAB v4, v5, v6, v7 | matrices, structs, struct arrays, cells; a structure with time has its clock |
@@ -51,6 +55,7 @@ mod read_options;
 mod tdms;
 mod text;
 mod uff58;
+mod unit;
 mod wpilog;
 #[cfg(feature = "xlsx")]
 mod xlsx;

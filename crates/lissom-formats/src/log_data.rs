@@ -1,6 +1,7 @@
 //! What a log file contains.
 
 use crate::format::Format;
+use crate::unit;
 
 /// The content of a log file.
 #[derive(Debug, Clone, PartialEq)]
@@ -83,5 +84,12 @@ impl Channel {
     /// A channel of numbers, without a unit, on an unstated clock.
     pub(crate) fn of(name: impl Into<String>, values: Vec<f64>) -> Self {
         Self { name: name.into(), unit: None, values, clock: Clock::Unstated, not_a_number: None }
+    }
+
+    /// Takes the unit in its name, if it has no other one.
+    pub(crate) fn take_unit_of_name(&mut self) {
+        if self.unit.is_none() {
+            self.unit = unit::in_name(&self.name);
+        }
     }
 }

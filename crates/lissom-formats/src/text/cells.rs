@@ -14,7 +14,7 @@ impl Separator {
         [Self::Char('\t'), Self::Char(';'), Self::Char(','), Self::Blanks];
 
     /// The cells of a row, without blanks and quotes around them. Separators in quotes do not count.
-    pub(crate) fn cells(self, row: &str) -> impl Iterator<Item = &str> {
+    pub(crate) fn cells(self, row: &str) -> impl Iterator<Item = &str> + Clone {
         let mut rest = Some(row.trim_matches(|c| c == ' ' || c == '\r'));
         if self == Self::Blanks {
             rest = Some(row.trim());
@@ -55,7 +55,7 @@ impl Decimal {
     pub(crate) const ALL: [Self; 3] = [Self::Point, Self::Comma, Self::Grouped];
 
     /// Reads a number.
-    fn number(self, text: &str) -> Option<f64> {
+    pub(super) fn number(self, text: &str) -> Option<f64> {
         if let Ok(value) = text.parse() {
             return Some(value);
         }

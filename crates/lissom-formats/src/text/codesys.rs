@@ -1,9 +1,9 @@
 //! Traces of CODESYS: after `N.Variable; name` and `N.Data;` a row `; time in ms; value` for each sample.
 
 use super::cells::{Cell, Decimal, Separator};
-use super::table::Column;
+use super::column::{self, Column};
 use crate::format::Format;
-use crate::log_data::{Channel, Clock, LogData};
+use crate::log_data::{Channel, LogData};
 
 /// A trace names its first variable within so many rows.
 const FIRST_ROWS: usize = 1000;
@@ -50,8 +50,5 @@ pub(crate) fn read(text: &str) -> Option<LogData> {
 
 fn finish(data: Option<[Column; 2]>, name: Option<&str>, channels: &mut Vec<Channel>) {
     let (Some([time, value]), Some(name)) = (data, name) else { return };
-    let at = channels.len();
-    channels.push(time.channel(format!("{name}/time"), Some("ms".to_owned())));
-    let value = value.channel(name.to_owned(), None);
-    channels.push(Channel { clock: Clock::Channel(at), ..value });
+    column::push_timed(name, (time, Some("ms")), value, channels);
 }

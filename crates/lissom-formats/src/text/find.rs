@@ -55,6 +55,31 @@ struct Block {
     values: usize,
 }
 
+impl Block {
+    /// Takes the rows directly above whose cells are numbers in the columns in which the first row has numbers: in other
+    /// columns some oscilloscopes state their settings.
+    fn take_rows_above(
+        &mut self,
+        lines: &[&str],
+        skipped: usize,
+        separator: Separator,
+        decimal: Decimal,
+    ) {
+        let values = |line: &str| -> Vec<bool> {
+            let is_value = |cell| Cell::of(cell, decimal).is_value();
+            separator.cells(line).map(is_value).collect()
+        };
+        let columns = values(lines[self.first]);
+        let fits = |line: &str| {
+            let cells = values(line);
+            columns.iter().enumerate().all(|(k, filled)| !filled || cells.get(k) == Some(&true))
+        };
+        while self.first > skipped && fits(lines[self.first - 1]) {
+            self.first -= 1;
+        }
+    }
+}
+
 /// The first long block of rows of numbers, else the longest.
 fn block(lines: &[&str], skipped: usize, separator: Separator, decimal: Decimal) -> Option<Block> {
     let mut best: Option<Block> = None;
@@ -77,6 +102,7 @@ fn block(lines: &[&str], skipped: usize, separator: Separator, decimal: Decimal)
             }
             block.end += 1;
         }
+        block.take_rows_above(lines, skipped, separator, decimal);
         at = block.end;
         let is_long = block.end - block.first >= LONG;
         if best.as_ref().is_none_or(|b| block.end - block.first > b.end - b.first) {

@@ -1,13 +1,7 @@
 //! Names and units above a table.
 
 use super::cells::{Cell, Decimal, Separator};
-
-/// Units that stand alone in a row below the names.
-const UNITS: [&str; 40] = [
-    "s", "sec", "ms", "us", "µs", "ns", "a", "ma", "v", "mv", "rad", "mrad", "deg", "°", "grad",
-    "rad/s", "deg/s", "°/s", "rpm", "1/min", "nm", "n*m", "n·m", "mnm", "n", "m", "mm", "m/s",
-    "mm/s", "hz", "khz", "-", "1", "%", "w", "°c", "counts", "inc", "rev", "turns",
-];
+use crate::unit;
 
 /// Names of the columns, and their units.
 #[derive(Debug, Clone, Default, PartialEq)]
@@ -24,19 +18,23 @@ impl Header {
         let above = (0..first).rev().filter(|k| !lines[*k].trim().is_empty()).take(2);
         let rows: Vec<(usize, Vec<&str>)> =
             above.map(|k| (k, separator.cells(unmarked(lines[k])).collect())).collect();
-        let full = |cells: &[&str]| {
+        // Where units are below them, names may be numbers: those of the channels of an oscilloscope.
+        let full = |cells: &[&str], with_units: bool| {
             let filled = cells.iter().filter(|c| !c.is_empty()).count();
-            let words =
-                cells.iter().all(|c| !matches!(Cell::of(c, Decimal::Point), Cell::Number(_)));
-            words && 2 * filled >= width && cells.len() >= width
+            let is_number = |c: &&str| matches!(Cell::of(c, Decimal::Point), Cell::Number(_));
+            let numbers = cells.iter().filter(|c| is_number(c)).count();
+            let are_names = if with_units { numbers < filled } else { numbers == 0 };
+            are_names && 2 * filled >= width && cells.len() >= width
         };
         let of = |at: usize, units: Option<&[&str]>| {
             let (line, cells) = &rows[at];
             Self::of(*line, &cells[..width], units.unwrap_or_default())
         };
         match &rows[..] {
-            [(_, units), (_, above)] if is_units(units) && full(above) => of(1, Some(units)),
-            [(_, cells), ..] if full(cells) => of(0, None),
+            [(_, units), (_, above)] if is_units(units, width) && full(above, true) => {
+                of(1, Some(units))
+            }
+            [(_, cells), ..] if full(cells, false) => of(0, None),
             // Without a separator at their ends, words fit where cells are separated by blanks.
             _ => Self::default(),
         }
@@ -63,15 +61,15 @@ impl Header {
             return Err(filled);
         }
         names.resize(width, "");
-        let units = (row..first).map(cells).find(|cells| is_units(cells));
+        let units = (row..first).map(cells).find(|cells| is_units(cells, width));
         Ok(Self::of(line, &names, &units.unwrap_or_default()))
     }
 
     fn of(line: usize, cells: &[&str], units: &[&str]) -> Self {
         let names: Vec<String> = cells.iter().map(|cell| (*cell).to_owned()).collect();
-        let stated = |k: usize| units.get(k).filter(|unit| !unit.is_empty());
+        let stated = |k: usize| units.get(k).filter(|text| unit::is_unit(text));
         let unit = |(k, name): (usize, &String)| {
-            stated(k).map(|unit| bare(unit).to_owned()).or_else(|| in_brackets(name))
+            stated(k).map(|unit| unit::bare(unit).to_owned()).or_else(|| unit::in_name(name))
         };
         Self { units: names.iter().enumerate().map(unit).collect(), names, line: Some(line) }
     }
@@ -82,30 +80,11 @@ fn unmarked(line: &str) -> &str {
     line.trim_start_matches(['#', '%', ' '])
 }
 
-fn is_units(cells: &[&str]) -> bool {
-    let mut filled = cells.iter().filter(|c| !c.is_empty()).peekable();
-    filled.peek().is_some()
-        && filled.all(|c| UNITS.contains(&bare(c).to_lowercase().as_str()) || *c != bare(c))
-}
-
-/// A unit without brackets around it.
-fn bare(unit: &str) -> &str {
-    let inner = |open: char, close: char| unit.strip_prefix(open)?.strip_suffix(close);
-    inner('[', ']').or_else(|| inner('(', ')')).unwrap_or(unit).trim()
-}
-
-/// The unit in brackets at the end of a name: `current [A]`, `angle (deg)`.
-pub(crate) fn in_brackets(name: &str) -> Option<String> {
-    let name = name.trim_end();
-    let open = match name.chars().last()? {
-        ']' => '[',
-        ')' => '(',
-        _ => return None,
-    };
-    let at = name.rfind(open)?;
-    let unit = name[at + 1..name.len() - 1].trim();
-    let word = unit.chars().next().is_some_and(|c| c.is_alphabetic() || "°%µ1".contains(c));
-    (at > 0 && word).then(|| unit.to_owned())
+/// Whether most of the filled cells are units: one may state that the column is an index.
+fn is_units(cells: &[&str], width: usize) -> bool {
+    let filled = || cells.iter().take(width).filter(|cell| !cell.is_empty());
+    let units = filled().filter(|cell| unit::is_unit(cell)).count();
+    2 * units > filled().count()
 }
 
 #[cfg(test)]

@@ -2,9 +2,14 @@
 
 mod cells;
 mod codesys;
+mod column;
 mod decode;
 mod find;
 mod header;
+mod labview;
+mod long_table;
+mod preamble;
+mod stamp_pairs;
 mod stamps;
 mod table;
 mod twincat;
@@ -21,6 +26,11 @@ use crate::read_options::ReadOptions;
 pub(crate) fn read(text: &str, options: &ReadOptions) -> Result<LogData, FormatError> {
     if let Some(found) = codesys::read(text) {
         return Ok(found);
+    }
+    if options.header_row.is_none()
+        && let Some(found) = long_table::read(text).or_else(|| labview::read(text))
+    {
+        return found;
     }
     let ReadOptions { header_row, skip_rows, decimal_comma } = *options;
     let above = skip_rows.max(header_row.unwrap_or(0));

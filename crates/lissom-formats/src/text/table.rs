@@ -1,9 +1,11 @@
 //! The table of numbers in a text, and its columns.
 
 use super::cells::{Cell, Decimal, Separator};
+use super::column::Column;
 use super::find::{MANY_COLUMNS, is_skipped};
 use super::header::Header;
-use super::stamps::{DAY_S, HALF_DAY_S, Stamp};
+use super::preamble::Preamble;
+use super::stamp_pairs;
 use crate::format::Format;
 use crate::format_error::FormatError;
 use crate::log_data::{Channel, LogData};
@@ -52,11 +54,14 @@ impl Table<'_> {
             return Err(FormatError::content(format!("row {}", row + 1), reason));
         }
         let header = self.header(header_row)?;
-        if self.first > header.line.map_or(0, |line| line + 1) + 1 || header.line > Some(0) {
-            let above = header.line.unwrap_or(self.first);
+        let above = header.line.unwrap_or(self.first);
+        if above > 0 {
             notes.push(format!("{above} lines above the table are left out"));
         }
-        let channels = self.columns(&header, end);
+        let mut channels = self.columns(&header, end);
+        let above = &self.lines[..self.first];
+        Preamble::of(above, self.separator, self.decimal).apply(&mut channels);
+        stamp_pairs::append(&mut channels);
         Ok(LogData {
             format: Format::Text,
             channels,
@@ -111,7 +116,7 @@ impl Table<'_> {
                 column.take(cell, self.decimal, row + 1);
             }
             let name = if named { cells[0].to_owned() } else { String::new() };
-            let unit = super::header::in_brackets(&name);
+            let unit = crate::unit::in_name(&name);
             column.channel(name, unit)
         };
         LogData {
@@ -120,48 +125,5 @@ impl Table<'_> {
             decimal_comma: self.decimal == Decimal::Comma,
             notes: Vec::new(),
         }
-    }
-}
-
-/// A column that is being read.
-pub(crate) struct Column {
-    values: Vec<f64>,
-    /// The first stamp, from which stamps are counted: so their decimals are kept.
-    first: Option<Stamp>,
-    /// A time of day that goes back by more than half a day passed midnight.
-    last_s: f64,
-    not_a_number: Option<(usize, String)>,
-}
-
-impl Column {
-    pub(crate) fn new(rows: usize) -> Self {
-        let values = Vec::with_capacity(rows);
-        Self { values, first: None, last_s: 0.0, not_a_number: None }
-    }
-
-    pub(crate) fn take(&mut self, cell: &str, decimal: Decimal, row: usize) {
-        let value = match Cell::of(cell, decimal) {
-            Cell::Number(value) => value,
-            Cell::Stamp(stamp) => {
-                let mut since_s = stamp.since_s(*self.first.get_or_insert(stamp));
-                if !stamp.has_date() && self.last_s - since_s > HALF_DAY_S {
-                    since_s += DAY_S;
-                }
-                self.last_s = since_s;
-                since_s
-            }
-            Cell::Blank => f64::NAN,
-            Cell::Words => {
-                self.not_a_number.get_or_insert_with(|| (row, cell.chars().take(40).collect()));
-                f64::NAN
-            }
-        };
-        self.values.push(value);
-    }
-
-    pub(crate) fn channel(self, name: String, unit: Option<String>) -> Channel {
-        let unit = if self.first.is_some() { Some("s".to_owned()) } else { unit };
-        let Self { values, not_a_number, .. } = self;
-        Channel { unit, not_a_number, ..Channel::of(name, values) }
     }
 }

@@ -10,13 +10,13 @@ use crate::log_data::{Channel, Clock, LogData};
 
 /// Reads a table if it is such an export.
 pub(crate) fn read(table: &Table<'_>) -> Option<LogData> {
-    if table.separator != Separator::Char('\t') || !table.width.is_multiple_of(2) {
+    if table.separator == Separator::Blanks || !table.width.is_multiple_of(2) {
         return None;
     }
     let above = &table.lines[..table.first];
     let pairs = |key: &str| {
-        let row = above.iter().rev().find(|line| line.split('\t').next() == Some(key))?;
-        let cells: Vec<&str> = row.split('\t').map(str::trim).collect();
+        let mut rows = above.iter().rev().map(|line| table.separator.cells(line));
+        let cells: Vec<&str> = rows.find(|cells| cells.clone().next() == Some(key))?.collect();
         Some(cells.chunks(2).map(|pair| pair.get(1).copied().unwrap_or("")).collect::<Vec<_>>())
     };
     let names = pairs("Name").filter(|names| names.len() >= table.width / 2)?;

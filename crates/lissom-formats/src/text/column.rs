@@ -1,0 +1,69 @@
+//! Columns of text while they are read.
+
+use super::cells::{Cell, Decimal};
+use super::stamps::{DAY_S, HALF_DAY_S, Stamp};
+use crate::log_data::{Channel, Clock};
+
+/// A column that is being read.
+pub(crate) struct Column {
+    values: Vec<f64>,
+    /// The first stamp, from which stamps are counted: so their decimals are kept.
+    first: Option<Stamp>,
+    /// A time of day that goes back by more than half a day passed midnight.
+    last_s: f64,
+    not_a_number: Option<(usize, String)>,
+}
+
+impl Column {
+    pub(crate) fn new(rows: usize) -> Self {
+        let values = Vec::with_capacity(rows);
+        Self { values, first: None, last_s: 0.0, not_a_number: None }
+    }
+
+    pub(crate) fn take(&mut self, cell: &str, decimal: Decimal, row: usize) {
+        let value = match Cell::of(cell, decimal) {
+            Cell::Number(value) => value,
+            Cell::Stamp(stamp) => {
+                let mut since_s = stamp.since_s(*self.first.get_or_insert(stamp));
+                if !stamp.has_date() && self.last_s - since_s > HALF_DAY_S {
+                    since_s += DAY_S;
+                }
+                self.last_s = since_s;
+                since_s
+            }
+            Cell::Blank => f64::NAN,
+            Cell::Words => {
+                self.not_a_number.get_or_insert_with(|| (row, cell.chars().take(40).collect()));
+                f64::NAN
+            }
+        };
+        self.values.push(value);
+    }
+
+    pub(crate) fn channel(self, name: String, unit: Option<String>) -> Channel {
+        let unit = if self.first.is_some() { Some("s".to_owned()) } else { unit };
+        let Self { values, not_a_number, .. } = self;
+        Channel { unit, not_a_number, ..Channel::of(name, values) }
+    }
+
+    /// Appends a number.
+    pub(crate) fn push(&mut self, value: f64) {
+        self.values.push(value);
+    }
+
+    pub(crate) fn values(&self) -> &[f64] {
+        &self.values
+    }
+}
+
+/// Appends a channel and the channel of its time stamps, which may have a unit.
+pub(crate) fn push_timed(
+    name: &str,
+    (stamps, unit): (Column, Option<&str>),
+    values: Column,
+    channels: &mut Vec<Channel>,
+) {
+    let clock = Clock::Channel(channels.len());
+    channels.push(stamps.channel(format!("{name}/time"), unit.map(str::to_owned)));
+    channels.push(Channel { clock, ..values.channel(name.to_owned(), None) });
+}
