@@ -25,7 +25,7 @@ fn time_responses_of_text_and_of_bytes_are_read() {
         assert_eq!((time.unit.as_deref(), time.values.len()), (Some("s"), 7));
         assert_eq!((second.clock, second.values.len()), (Clock::Channel(1), 7));
         assert!(
-            found.notes[0].starts_with("left out: 2 (frequency responses"),
+            found.notes[0].starts_with("left out: 2 (functions of neither"),
             "{:?}",
             found.notes
         );
@@ -57,4 +57,43 @@ fn a_dataset_that_is_cut_off_keeps_its_values() {
 fn a_table_that_begins_with_minus_one_is_no_universal_file() {
     let found = read_bytes(b"    -1  5\n    58  6\n    59  7\n    60  8\n".to_vec()).unwrap();
     assert_eq!(found.format, Format::Text);
+}
+
+#[test]
+fn functions_of_the_frequency_have_their_frequencies_and_two_parts() {
+    for file in ["responses.uff", "responses_58b.uff"] {
+        let found = read(&path(file)).unwrap();
+        let wanted = [
+            "frequency",
+            "2+Z/real",
+            "2+Z/imag",
+            "3+Z/real",
+            "3+Z/imag",
+            "2+Z[2]/frequency",
+            "2+Z[2]/real",
+            "2+Z[2]/imag",
+            "2+Z[3]",
+        ];
+        assert_eq!(names(&found), wanted);
+        let units: Vec<Option<&str>> = found.channels.iter().map(|c| c.unit.as_deref()).collect();
+        assert_eq!(units[..3], [Some("Hz"), Some("m/s^2/N"), Some("m/s^2/N")]);
+        assert_eq!((units[5], units[8]), (Some("Hz"), Some("m/s^2")));
+        let values = |k: usize| &found.channels[k].values;
+        for (k, f) in values(0).iter().enumerate() {
+            assert!((f - 0.5 - 0.25 * k as f64).abs() < 1e-9);
+            // 1/(a + ib) at this frequency.
+            let (a, b) = (1.0 - (f / 1.2).powi(2), 0.1 * f);
+            let size = a * a + b * b;
+            assert!(
+                (values(1)[k] - a / size).abs() < 1e-9 && (values(2)[k] + b / size).abs() < 1e-9
+            );
+            assert!((values(3)[k] - 2.0 * values(1)[k]).abs() < 1e-9);
+        }
+        assert_eq!(values(6).len(), 5);
+        assert!((values(7)[3] - 1.9).abs() < 1e-6 && (values(5)[3] - 1.9).abs() < 1e-6);
+        assert!((values(8)[8] - 0.9).abs() < 1e-9);
+        assert!(
+            found.channels.iter().all(|c| c.clock == Clock::Unstated) && found.notes.is_empty()
+        );
+    }
 }

@@ -53,10 +53,14 @@ impl<'a> Lines<'a> {
 
 /// Time response.
 const TIME_RESPONSE: i64 = 1;
-/// A function whose type is not stated.
-const UNKNOWN_FUNCTION: i64 = 0;
+/// A function or an abscissa whose type is not stated.
+const UNKNOWN: i64 = 0;
+/// Frequency response.
+const FREQUENCY_RESPONSE: i64 = 4;
 /// The abscissa is the time.
 const TIME: i64 = 17;
+/// The abscissa is the frequency.
+const FREQUENCY: i64 = 18;
 /// Directions 1 to 6.
 const DIRECTIONS: [&str; 6] = ["X", "Y", "Z", "RX", "RY", "RZ"];
 
@@ -75,9 +79,11 @@ pub(super) struct Header {
     start: f64,
     step: f64,
     abscissa: i64,
-    pub(super) time_unit: Option<String>,
+    pub(super) abscissa_unit: Option<String>,
     label: Option<String>,
-    pub(super) unit: Option<String>,
+    ordinate_unit: Option<String>,
+    /// The unit by which that of the ordinate is divided.
+    denominator_unit: Option<String>,
 }
 
 /// The columns of a line as text.
@@ -108,9 +114,8 @@ impl Header {
         let form = lines.next()?;
         let abscissa = lines.next()?;
         let ordinate = lines.next()?;
-        for _ in 0..2 {
-            lines.next()?;
-        }
+        let denominator = lines.next()?;
+        lines.next()?;
         let float = |from: usize| super::fortran_number::number(columns(form, from, 13).as_bytes());
         Some(Self {
             first_line,
@@ -124,15 +129,37 @@ impl Header {
             start: float(30).unwrap_or(0.0),
             step: float(43).unwrap_or(0.0),
             abscissa: integer(abscissa, 0, 10)?,
-            time_unit: word(abscissa, 47, 20),
+            abscissa_unit: word(abscissa, 47, 20),
             label: word(ordinate, 26, 20),
-            unit: word(ordinate, 47, 20),
+            ordinate_unit: word(ordinate, 47, 20),
+            denominator_unit: word(denominator, 47, 20),
         })
     }
 
     pub(super) fn is_time_response(&self) -> bool {
-        self.function == TIME_RESPONSE
-            || (self.function == UNKNOWN_FUNCTION && self.abscissa == TIME)
+        self.function == TIME_RESPONSE || (self.function == UNKNOWN && self.abscissa == TIME)
+    }
+
+    pub(super) fn is_of_frequency(&self) -> bool {
+        self.abscissa == FREQUENCY
+            || (self.function == FREQUENCY_RESPONSE && self.abscissa == UNKNOWN)
+    }
+
+    /// The unit of the ordinate, per that of the excitation.
+    pub(super) fn unit(&self) -> Option<String> {
+        let unit = self.ordinate_unit.clone();
+        match &self.denominator_unit {
+            Some(per) if per.contains(['/', '*', '·']) => {
+                Some(format!("{}/({per})", unit.as_deref().unwrap_or("1")))
+            }
+            Some(per) => Some(format!("{}/{per}", unit.as_deref().unwrap_or("1"))),
+            None => unit,
+        }
+    }
+
+    /// First abscissa, and distance of two, if they are even.
+    pub(super) fn even(&self) -> Option<(f64, f64)> {
+        self.is_even.then_some((self.start, self.step))
     }
 
     pub(super) fn is_complex(&self) -> bool {
@@ -150,7 +177,7 @@ impl Header {
 
     /// Seconds of a unit of the abscissa.
     fn unit_s(&self) -> f64 {
-        match self.time_unit.as_deref() {
+        match self.abscissa_unit.as_deref() {
             Some("ms" | "msec") => 1e-3,
             Some("us" | "µs") => 1e-6,
             Some("min") => 60.0,

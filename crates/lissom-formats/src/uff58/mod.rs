@@ -1,14 +1,19 @@
-//! Universal files (`.uff`, `.unv`): the time responses in datasets 58 and 58b.
+//! Universal files (`.uff`, `.unv`): time responses and functions of the frequency in datasets 58 and 58b.
+//!
+//! Of a frequency response, `NAME/real` and `NAME/imag` are channels, with the channel `frequency` for all functions with
+//! the same frequencies.
 //!
 //! A channel is named after its response: entity, node and direction as in `arm/5+Z`; otherwise after the label of its axis
 //! or the first line of the dataset.
 
 mod fortran_number;
+mod frequency;
 mod header;
 mod values;
 
 use std::collections::HashMap;
 
+use frequency::Frequencies;
 use header::{Header, Lines};
 
 use crate::collected::{Collected, LeftOut};
@@ -21,18 +26,27 @@ const MARK: &[u8] = b"-1";
 /// Columns of the number of a dataset.
 const NUMBER_COLUMNS: usize = 6;
 
-const SPECTRA: LeftOut = LeftOut {
-    what: "frequency responses, spectra and other functions that are no time responses",
-    way_out: "export the time responses",
+const OTHERS: LeftOut = LeftOut {
+    what: "functions of neither time nor frequency",
+    way_out: "export time responses or frequency responses",
 };
 const COMPLEX: LeftOut =
     LeftOut { what: "complex numbers", way_out: "export the time responses as real numbers" };
 
-/// Whether a file begins with a dataset.
+/// Whether a file begins with a dataset; some programs write its first mark twice.
 pub(crate) fn begins(bytes: &[u8]) -> bool {
     let mut lines = Lines::new(bytes);
-    let is_mark = lines.next().is_some_and(|line| line.starts_with(b"    -1") && is_mark(line));
-    is_mark && lines.next().and_then(dataset).is_some()
+    let is_marked = lines.next().is_some_and(|line| line.starts_with(b"    -1") && is_mark(line));
+    is_marked && after_marks(&mut lines).and_then(dataset).is_some()
+}
+
+/// The next line that is no mark.
+fn after_marks<'a>(lines: &mut Lines<'a>) -> Option<&'a [u8]> {
+    let mut line = lines.next();
+    while line.is_some_and(is_mark) {
+        line = lines.next();
+    }
+    line
 }
 
 fn is_mark(line: &[u8]) -> bool {
@@ -50,20 +64,17 @@ fn dataset(line: &[u8]) -> Option<(u32, bool)> {
 pub(crate) fn read(bytes: &[u8]) -> Result<LogData, FormatError> {
     let mut found = Collected::new();
     let mut names = HashMap::new();
+    let mut frequencies = Frequencies::default();
     let mut lines = Lines::new(bytes);
     while let Some(line) = lines.next() {
         if !is_mark(line) {
             continue;
         }
         // Of two marks the first one ended a dataset whose header is damaged.
-        let mut first = lines.next();
-        while first.is_some_and(is_mark) {
-            first = lines.next();
-        }
-        let Some(first) = first else { break };
+        let Some(first) = after_marks(&mut lines) else { break };
         match dataset(first) {
             Some((58, is_binary)) => {
-                function(&mut lines, first, is_binary, &mut names, &mut found)?;
+                function(&mut lines, first, is_binary, &mut names, &mut frequencies, &mut found)?;
             }
             // Other datasets are no functions.
             _ => while lines.next().is_some_and(|line| !is_mark(line)) {},
@@ -78,6 +89,7 @@ fn function(
     first: &[u8],
     is_binary: bool,
     names: &mut HashMap<String, usize>,
+    frequencies: &mut Frequencies,
     found: &mut Collected,
 ) -> Result<(), FormatError> {
     let row = lines.row();
@@ -91,12 +103,17 @@ fn function(
     } else {
         values::text(lines, &header, &name, found)?
     };
-    if !header.is_time_response() {
-        found.leave_out(&name, &SPECTRA);
-    } else if header.is_complex() {
+    if header.is_time_response() && header.is_complex() {
         found.leave_out(&name, &COMPLEX);
-    } else if let Some(values) = values {
-        collect(name, values, &header, found);
+    } else if !header.is_time_response() && !header.is_of_frequency() {
+        found.leave_out(&name, &OTHERS);
+    } else if let Some(mut values) = values {
+        cut(&name, &mut values, &header, found);
+        if header.is_time_response() {
+            collect(name, values, &header, found);
+        } else {
+            frequencies.collect(&name, &values, &header, found);
+        }
     }
     Ok(())
 }
@@ -108,13 +125,17 @@ fn unique(name: String, names: &mut HashMap<String, usize>) -> String {
     if *count == 1 { name } else { format!("{name}[{count}]") }
 }
 
-fn collect(name: String, mut values: Vec<f64>, header: &Header, found: &mut Collected) {
+/// Cuts values behind the stated number of points, and notes if there are fewer.
+fn cut(name: &str, values: &mut Vec<f64>, header: &Header, found: &mut Collected) {
     let wanted = header.points.saturating_mul(header.numbers_of_point());
     if values.len() < wanted {
         let (has, points) = (values.len() / header.numbers_of_point(), header.points);
         found.note(format!("{name}: the dataset ends after {has} of {points} samples"));
     }
     values.truncate(wanted);
+}
+
+fn collect(name: String, mut values: Vec<f64>, header: &Header, found: &mut Collected) {
     let mut clock = match header.step_s() {
         Some(step_s) => Clock::Even { start_s: header.start_s(), step_s },
         None => Clock::Unstated,
@@ -124,7 +145,7 @@ fn collect(name: String, mut values: Vec<f64>, header: &Header, found: &mut Coll
         values = values.into_iter().skip(1).step_by(2).collect();
         clock = Clock::Channel(found.channels.len());
         let mut time = Channel::of(format!("{name}/time"), times);
-        time.unit = Some(header.time_unit.clone().unwrap_or_else(|| "s".to_owned()));
+        time.unit = Some(header.abscissa_unit.clone().unwrap_or_else(|| "s".to_owned()));
         found.channels.push(time);
     }
     if values.is_empty() {
@@ -134,7 +155,7 @@ fn collect(name: String, mut values: Vec<f64>, header: &Header, found: &mut Coll
         return;
     }
     let mut channel = Channel::of(name, values);
-    channel.unit.clone_from(&header.unit);
+    channel.unit = header.unit();
     channel.clock = clock;
     found.channels.push(channel);
 }

@@ -36,10 +36,17 @@ def of_file(path):
         is_time = dataset["func_type"] == 1 or (
             dataset["func_type"] == 0 and dataset["abscissa_spec_data_type"] == 17
         )
-        if not is_time or np.iscomplexobj(dataset["data"]):
+        is_frequency = dataset["abscissa_spec_data_type"] == 18
+        if not is_frequency and (not is_time or np.iscomplexobj(dataset["data"])):
             left_out = True
             continue
         unit = str(dataset["ordinate_axis_units_lab"] or "").strip()
+        if is_frequency:
+            x, data = dataset["x"][: dataset["num_pts"]], dataset["data"][: dataset["num_pts"]]
+            found.append(expected.channel("frequency", x, "Hz"))
+            found.append(expected.channel(f"{label}/real", data.real, unit))
+            found.append(expected.channel(f"{label}/imag", data.imag, unit))
+            continue
         clock = [dataset["abscissa_min"], dataset["abscissa_inc"]]
         data = dataset["data"][: dataset["num_pts"]]
         if not dataset["abscissa_spacing"]:
@@ -76,12 +83,15 @@ def write_all(folder, rng):
     paths = []
     for binary in (0, 1):
         for even in (True, False):
-            for count in (2, 3, 4, 5, 401):
+            for number_of_file, count in enumerate((2, 3, 4, 5, 401)):
                 path = folder / f"{'binary' if binary else 'text'}_{'even' if even else 'uneven'}_{count}.uff"
                 path.unlink(missing_ok=True)
                 sets = [dataset(rng, count, number, binary, even) for number in (0, 1, 2, 2)]
                 response = dataset(rng, count, 9, binary, True)
                 sets.insert(2, {**response, "func_type": 4, "data": response["data"] * (1 + 1j)})
+                if number_of_file % 2:
+                    # Of the frequency, else of neither frequency nor time.
+                    sets[2]["abscissa_spec_data_type"] = 18
                 pyuff.UFF(str(path)).write_sets(sets, mode="add")
                 paths.append(path)
     for path in paths:
