@@ -62,6 +62,26 @@ pub(crate) fn items(lengths: &[usize]) -> Option<usize> {
 impl Array<'_> {
     /// Appends its channels to those of the file. They are named `name`, or `name[1]`, `name[2]`, ... if there are several.
     pub(crate) fn collect(&self, name: &str, found: &mut Collected) -> Result<(), FormatError> {
+        self.collect_part(name, "", found)
+    }
+
+    /// Appends the channels of complex numbers, whose two parts are these arrays.
+    pub(crate) fn collect_complex(
+        [real, imag]: [&Self; 2],
+        name: &str,
+        found: &mut Collected,
+    ) -> Result<(), FormatError> {
+        real.collect_part(name, "/real", found)?;
+        imag.collect_part(name, "/imag", found)
+    }
+
+    /// Appends its channels; `part` is the end of their names.
+    fn collect_part(
+        &self,
+        name: &str,
+        part: &str,
+        found: &mut Collected,
+    ) -> Result<(), FormatError> {
         let too_large = || FormatError::content(name, "the array is larger than the file");
         let lengths: Vec<usize> = self.axes.iter().map(|axis| axis.length).collect();
         let count = items(&lengths).ok_or_else(too_large)?;
@@ -95,7 +115,7 @@ impl Array<'_> {
                 self.number.append(out, bytes, stride, rows);
             }
         }
-        let named = |place: &Place| format!("{name}{}", place.label);
+        let named = |place: &Place| format!("{name}{}{part}", place.label);
         found.channels.extend(places.iter().zip(values).map(|(p, v)| Channel::of(named(p), v)));
         Ok(())
     }

@@ -117,7 +117,10 @@ impl Collected {
             self.notes.push(format!("left out: {names} ({}); {}", why.what, why.way_out));
         }
         let Self { mut channels, notes, .. } = self;
-        channels.iter_mut().for_each(Channel::take_unit_of_name);
+        // In brackets at the end of a name of MCAP is the name of a joint.
+        if format != Format::Mcap {
+            channels.iter_mut().for_each(Channel::take_unit_of_name);
+        }
         Ok(LogData { format, channels, decimal_comma: false, notes })
     }
 }

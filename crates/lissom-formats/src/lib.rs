@@ -16,12 +16,14 @@
 //! | NumPy `.npy`, `.npz` | numbers of all types, structured arrays by field |
 //! | WPILib `.wpilog` | entries of numbers and of arrays of numbers, each with its own clock |
 //! | TDMS | channels of numbers and time stamps, of NI-DAQmx too, linear and polynomial scales; waveforms have their clock |
-//! | UFF, UNV | time responses in datasets 58 and 58b, each with its own clock |
+//! | UFF, UNV | time responses in datasets 58 and 58b, each with its own clock; frequency responses with `frequency` |
 //! | MATLAB v7.3 (feature `hdf5`) | as the earlier versions |
 //! | HDF5 (feature `hdf5`) | datasets of numbers with the path of their groups, compound types by field, units in attributes |
 //! | MCAP (feature `mcap`) | messages of ROS 2 and in JSON: each number of a topic, with its clock |
 //! | Excel `.xlsx` (feature `xlsx`) | the sheet with the longest block of numbers, with its header and its row of units |
 //! | Parquet (feature `parquet`) | columns of numbers and of structs of numbers; times are seconds |
+//!
+//! Complex numbers are two channels, `NAME/real` and `NAME/imag`.
 //!
 //! The feature `full` has all formats. Without its feature, a format is recognised, and the error states the way out.
 //!

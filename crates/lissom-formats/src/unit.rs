@@ -27,9 +27,12 @@ pub(crate) fn bare(unit: &str) -> &str {
     inner('[', ']').or_else(|| inner('(', ')')).unwrap_or(unit).trim()
 }
 
-/// The unit in brackets at the end of a name, before its index if it has one: `current [A]`, `angle (deg)[2]`.
+/// The unit in brackets at the end of a name, before its index and its part if it has them: `current [A]`,
+/// `angle (deg)[2]`, `H [rad/A]/real`.
 pub(crate) fn in_name(name: &str) -> Option<String> {
-    let name = without_index(name.trim_end());
+    let name = name.trim_end();
+    let part = name.strip_suffix("/real").or_else(|| name.strip_suffix("/imag"));
+    let name = without_index(part.unwrap_or(name));
     let open = match name.chars().last()? {
         ']' => '[',
         ')' => '(',
@@ -62,6 +65,7 @@ mod tests {
             ("current [A]", Some("A")),
             ("arm/angle (deg)", Some("deg")),
             ("angle (deg)[2,1]", Some("deg")),
+            ("H [rad/A][2]/imag", Some("rad/A")),
             ("position [turns]", Some("turns")),
             ("encoder [cnt]", Some("cnt")),
             ("speed [1/min]", Some("1/min")),

@@ -272,3 +272,28 @@ fn gaps_and_lengths_in_json_are_noted() {
         ]
     );
 }
+
+#[test]
+fn complex_numbers_of_frequency_responses_are_two_channels() {
+    let f = |t: f64| 500.0 * t + 1.0;
+    let texts = [
+        "# made by x\nf [Hz],H [rad/A],coherence\n".to_owned()
+            + &lines(|[t, i, q]| format!("{},{i}{q:+}j,0.9", f(t))),
+        "f [Hz],H [rad/A],coherence\n".to_owned()
+            + &lines(|[t, i, q]| format!("{}, ({i:e}{q:+e}j),0.9", f(t))),
+        "f [Hz];H [rad/A];coherence\n".to_owned()
+            + &lines(|[t, i, q]| format!("{};{i} + {q}i;0.9", f(t)).replace("+ -", "- ")),
+        "f [Hz];H [rad/A];coherence\n".to_owned()
+            + &lines(|[t, i, q]| format!("{};{i:.3}{q:+.3}i;0.9", f(t)).replace('.', ",")),
+        "f (Hz) H (rad/A) coherence\n".replace(" (", "(")
+            + &lines(|[t, i, q]| format!("{} ({i:e}{q:+e}j) 0.9", f(t))),
+    ];
+    for text in texts {
+        let found = read(&text);
+        assert!(names(&found)[1].ends_with("/real") && names(&found)[2].ends_with("/imag"));
+        assert_eq!(units(&found), [Some("Hz"), Some("rad/A"), Some("rad/A"), None]);
+        has(&found.channels[1], 1, 0.0);
+        has(&found.channels[2], 2, 0.0);
+        assert!(found.channels.iter().all(|c| c.not_a_number.is_none()));
+    }
+}

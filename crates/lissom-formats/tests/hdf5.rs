@@ -51,10 +51,13 @@ fn structs_of_matlab_7_3_are_read_as_those_of_earlier_versions() {
         "run/rate",
         "run[1]/theta",
         "run[2]/theta",
+        "z/real",
+        "z/imag",
     ];
     assert_eq!(names(&found), wanted);
     assert_eq!(found.channels[1].unit.as_deref(), Some("rad"));
     assert_eq!(found.channels[1].clock, Clock::Channel(3));
     assert_eq!(found.channels[6].values, [0.0, 2.0, 4.0, 6.0]);
-    assert!(found.notes[0].starts_with("left out: z (complex numbers)"), "{:?}", found.notes);
+    assert_eq!([&found.channels[7].values, &found.channels[8].values], [&[1.0], &[2.0]]);
+    assert!(found.notes.is_empty(), "{:?}", found.notes);
 }

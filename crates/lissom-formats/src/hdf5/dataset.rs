@@ -2,7 +2,7 @@
 
 use hdf5_pure::{Dataset, Datatype, DatatypeByteOrder, Error, File};
 
-use crate::array::items;
+use crate::array::{Array, Axis, items};
 use crate::bytes::MOST_BYTES;
 use crate::collected::Collected;
 use crate::format_error::FormatError;
@@ -100,6 +100,28 @@ pub(crate) fn bytes(dataset: &Dataset, found: &mut Collected) -> Result<Vec<u8>,
         return Err(FormatError::content("its data", reason));
     }
     dataset.read_raw().map_err(damaged)
+}
+
+/// The numbers of the two parts of a complex number, and the offset of the second one in the item, if a type is one: of
+/// h5py the parts are `r` and `i`, of MATLAB `real` and `imag`.
+pub(crate) fn complex(of: &Datatype) -> Option<([Number; 2], usize)> {
+    let Datatype::Compound { members, .. } = of else { return None };
+    let [real, imag] = &members[..] else { return None };
+    let names = (real.name.as_str(), imag.name.as_str());
+    let is_complex = matches!(names, ("r", "i") | ("real", "imag")) && real.byte_offset == 0;
+    let offset = usize::try_from(imag.byte_offset).ok().filter(|_| is_complex)?;
+    Some(([number(&real.datatype)?, number(&imag.datatype)?], offset))
+}
+
+/// Two arrays of the parts of complex numbers.
+pub(crate) fn parts<'a>(
+    bytes: &'a [u8],
+    ([real, imag], offset): ([Number; 2], usize),
+    axes: &[Axis],
+) -> [Array<'a>; 2] {
+    let array =
+        |bytes: &'a [u8], number| Array { bytes: bytes.into(), number, axes: axes.to_vec() };
+    [array(bytes, real), array(bytes.get(offset..).unwrap_or_default(), imag)]
 }
 
 /// Whether items of a type are texts.

@@ -1,7 +1,7 @@
 //! HDF5 files.
 //!
 //! A dataset is a channel with the path of its groups, `run/theta`; of several axes, the longest counts the samples. The
-//! fields of a compound type are `run/theta/field`. The attribute `unit` or `units` of a dataset is the unit.
+//! fields of a compound type are `run/theta/field`, the parts of complex numbers `run/h/real` and `run/h/imag`. The attribute `unit` or `units` of a dataset is the unit.
 //! Soft and external links are not followed.
 
 pub(crate) mod dataset;
@@ -195,6 +195,10 @@ fn collect(
 ) -> Result<(), FormatError> {
     if let Some(number) = dataset::number(of) {
         return Array { bytes: bytes.into(), number, axes: axes.to_vec() }.collect(path, found);
+    }
+    if let Some(numbers) = dataset::complex(of) {
+        let [real, imag] = dataset::parts(bytes, numbers, axes);
+        return Array::collect_complex([&real, &imag], path, found);
     }
     match of {
         Datatype::Array { base_type, dimensions } => {

@@ -2,10 +2,6 @@
 
 use crate::collected::LeftOut;
 
-pub(super) const COMPLEX: LeftOut = LeftOut {
-    what: "complex numbers",
-    way_out: "in MATLAB: s.re = real(x); s.im = imag(x); save(\"log.mat\", \"s\")",
-};
 pub(super) const SPARSE: LeftOut = LeftOut {
     what: "sparse matrices",
     way_out: "in MATLAB: x = full(x); save(\"log.mat\", \"x\")",

@@ -1,6 +1,6 @@
 //! MATLAB files of version 4: a header of 20 bytes before each matrix.
 
-use super::left_out::{COMPLEX, SPARSE};
+use super::left_out::SPARSE;
 use crate::array::{Array, axes};
 use crate::collected::Collected;
 use crate::cursor::Cursor;
@@ -58,10 +58,17 @@ fn collect<'a>(
     };
     let name = &matrix.name;
     match matrix.class {
-        0 if matrix.is_complex => found.leave_out(name, &COMPLEX),
         0 => {
             if let Some(axes) = axes(&matrix.lengths, size, true) {
-                Array { bytes: bytes.into(), number: matrix.number, axes }.collect(name, found)?;
+                let number = matrix.number;
+                let array =
+                    |bytes: &'a [u8]| Array { bytes: bytes.into(), number, axes: axes.clone() };
+                let (real, imag) = bytes.split_at(bytes.len() / parts);
+                if matrix.is_complex {
+                    Array::collect_complex([&array(real), &array(imag)], name, found)?;
+                } else {
+                    array(real).collect(name, found)?;
+                }
             }
         }
         1 => {}

@@ -1,7 +1,7 @@
 //! MATLAB files of versions 5, 6 and 7.
 
 use super::elements::{self, COMPRESSED, Element, MATRIX};
-use super::left_out::{COMPLEX, FUNCTIONS, SPARSE, TOO_DEEP, object};
+use super::left_out::{FUNCTIONS, SPARSE, TOO_DEEP, object};
 use super::value::{Struct, Value, collect};
 use crate::array::{Array, axes, items};
 use crate::collected::Collected;
@@ -123,8 +123,14 @@ impl Reader {
             CHARACTERS => elements::next(&mut cursor).map(|text| self.text(text, &lengths)),
             SPARSE_MATRIX => Some(Value::LeftOut(&SPARSE)),
             FUNCTION => Some(Value::LeftOut(&FUNCTIONS)),
-            _ if is_complex => Some(Value::LeftOut(&COMPLEX)),
-            _ => self.numbers(&mut cursor, &lengths),
+            _ => {
+                let real = self.numbers(&mut cursor, &lengths);
+                let imag = is_complex.then(|| self.numbers(&mut cursor, &lengths));
+                match (real, imag) {
+                    (Some(real), Some(imag)) => imag.map(|imag| Value::Complex([real, imag])),
+                    (real, _) => real.map(Value::Numbers),
+                }
+            }
         };
         Ok(value.map(|value| (name, value)))
     }
@@ -142,15 +148,11 @@ impl Reader {
         Some((lengths.collect::<Option<_>>()?, elements::next(cursor)?.name()))
     }
 
-    fn numbers<'a>(self, cursor: &mut Cursor<'a>, lengths: &[usize]) -> Option<Value<'a>> {
+    fn numbers<'a>(self, cursor: &mut Cursor<'a>, lengths: &[usize]) -> Option<Array<'a>> {
         let Element { kind, data } = elements::next(cursor)?;
         let kind = elements::number_type(kind)?;
         let number = Number::new(kind, self.big_endian);
-        Some(Value::Numbers(Array {
-            bytes: data.into(),
-            number,
-            axes: axes(lengths, kind.size(), true)?,
-        }))
+        Some(Array { bytes: data.into(), number, axes: axes(lengths, kind.size(), true)? })
     }
 
     /// A text of one row; others are no units, and an empty text takes their place.

@@ -7,7 +7,7 @@ use std::collections::BTreeMap;
 
 use hdf5_pure::{AttrValue, Dataset, Datatype, Group, Object};
 
-use super::left_out::{COMPLEX, SPARSE, TOO_DEEP, object as object_class};
+use super::left_out::{SPARSE, TOO_DEEP, object as object_class};
 use super::value::{Struct, Value, collect};
 use crate::array::{Array, axes, items};
 use crate::collected::{Collected, LeftOut};
@@ -16,6 +16,7 @@ use crate::format_error::FormatError;
 use crate::guard::guarded;
 use crate::hdf5::dataset;
 use crate::log_data::LogData;
+use crate::number::Number;
 
 /// First bytes of a file; HDF5 begins behind them.
 pub(crate) const MATLAB_73: &[u8] = b"MATLAB 7.";
@@ -143,14 +144,14 @@ impl Reader {
         if matches!(datatype, Datatype::Reference { .. }) {
             return Ok(Value::Cells(self.targets(dataset, depth, found)?));
         }
-        if matches!(datatype, Datatype::Compound { .. }) {
-            return Ok(Value::LeftOut(&COMPLEX));
-        }
         let mut lengths = dataset::shape(dataset)?;
         lengths.reverse();
         let is_row = matches!(lengths[..], [1, length] if length <= MOST_TEXT);
         if dataset::is_text(&datatype) || (class == Some("char") && !is_row) {
             return Ok(Value::Text(String::new()));
+        }
+        if let Some(numbers) = dataset::complex(&datatype) {
+            return self.complex(dataset, numbers, &lengths, found);
         }
         let Some(number) = dataset::number(&datatype) else {
             return Ok(Value::LeftOut(&UNKNOWN));
@@ -165,6 +166,27 @@ impl Reader {
             return Err(dataset::too_large());
         };
         Ok(Value::Numbers(Array { bytes: bytes.into(), number, axes }))
+    }
+
+    fn complex(
+        &mut self,
+        of: &Dataset,
+        (numbers, offset): ([Number; 2], usize),
+        lengths: &[usize],
+        found: &mut Collected,
+    ) -> Result<Value<'static>, FormatError> {
+        let Some(axes) = axes(lengths, dataset::item_size(of)?, true) else {
+            return Err(dataset::too_large());
+        };
+        let bytes = self.bytes(of, found)?;
+        let imag = bytes.get(offset..).unwrap_or_default().to_vec();
+        found.take_bytes(imag.len())?;
+        self.taken += imag.len();
+        let [real, imag] = [(bytes, numbers[0]), (imag, numbers[1])].map(|(bytes, number)| {
+            let axes = axes.clone();
+            Array { bytes: bytes.into(), number, axes }
+        });
+        Ok(Value::Complex([real, imag]))
     }
 
     fn bytes(&mut self, of: &Dataset, found: &mut Collected) -> Result<Vec<u8>, FormatError> {

@@ -9,6 +9,8 @@ use crate::log_data::{Channel, Clock};
 #[derive(Debug, Clone)]
 pub(super) enum Value<'a> {
     Numbers(Array<'a>),
+    /// Real and imaginary part.
+    Complex([Array<'a>; 2]),
     Text(String),
     Cells(Vec<Value<'a>>),
     Struct(Struct<'a>),
@@ -27,6 +29,7 @@ pub(super) struct Struct<'a> {
 pub(super) fn collect(path: &str, value: &Value, found: &mut Collected) -> Result<(), FormatError> {
     match value {
         Value::Numbers(array) => array.collect(path, found),
+        Value::Complex([real, imag]) => Array::collect_complex([real, imag], path, found),
         Value::Text(_) => Ok(()),
         Value::LeftOut(why) => {
             found.leave_out(path, why);

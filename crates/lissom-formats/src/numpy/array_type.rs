@@ -11,10 +11,6 @@ pub(super) const OBJECTS: LeftOut = LeftOut {
               numpy.array(numpy.load(FILE, allow_pickle=True).tolist(), dtype=float)), \
               if you trust the file",
 };
-const COMPLEX: LeftOut = LeftOut {
-    what: "complex numbers",
-    way_out: "in Python: save the parts, numpy.savez(\"log.npz\", re=a.real, im=a.imag)",
-};
 const WIDE: LeftOut = LeftOut {
     what: "numbers of more than 64 bits",
     way_out: "in Python: numpy.save(\"log.npy\", a.astype(float))",
@@ -45,6 +41,8 @@ pub(super) struct ArrayType {
 #[derive(Debug, Clone, PartialEq)]
 pub(super) enum Kind {
     Number(Number),
+    /// Complex numbers of two such numbers.
+    Complex(Number),
     /// Dates, or time spans, counted in a unit of `unit_s` seconds.
     Time {
         big_endian: bool,
@@ -131,6 +129,7 @@ fn scalar(code: &str) -> Option<ArrayType> {
     let count: usize = if count.is_empty() { 0 } else { count.parse().ok()? };
     let size = if letter == "U" { count.checked_mul(4)? } else { count };
     let number = |kind| Kind::Number(Number::new(kind, big_endian));
+    let complex = |kind| Kind::Complex(Number::new(kind, big_endian));
     let kind = match (letter, count) {
         ("i", 1) => number(NumberType::I8),
         ("b" | "u", 1) => number(NumberType::U8),
@@ -143,8 +142,9 @@ fn scalar(code: &str) -> Option<ArrayType> {
         ("f", 2) => number(NumberType::F16),
         ("f", 4) => number(NumberType::F32),
         ("f", 8) => number(NumberType::F64),
-        ("f" | "i" | "u", _) => Kind::LeftOut(&WIDE),
-        ("c", _) => Kind::LeftOut(&COMPLEX),
+        ("c", 8) => complex(NumberType::F32),
+        ("c", 16) => complex(NumberType::F64),
+        ("f" | "i" | "u" | "c", _) => Kind::LeftOut(&WIDE),
         ("O", _) => Kind::LeftOut(&OBJECTS),
         ("S" | "a" | "U", _) => Kind::LeftOut(&TEXT),
         ("V", _) => Kind::Padding,

@@ -86,6 +86,12 @@ fn fields(
             array.number = *number;
             array.collect(label, found)
         }
+        Kind::Complex(number) => {
+            array.number = *number;
+            let bytes = array.bytes.get(number.kind.size()..).unwrap_or_default().into();
+            let imag = Array { bytes, number: *number, axes: array.axes.clone() };
+            Array::collect_complex([&array, &imag], label, found)
+        }
         Kind::Time { big_endian, unit_s, are_dates } => {
             let number = Number::new(NumberType::Ticks { origin: 0 }, *big_endian);
             array.number = if *are_dates { number.since_first(&array.bytes) } else { number };

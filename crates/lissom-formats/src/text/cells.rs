@@ -92,6 +92,8 @@ fn grouped(text: &str, sign: char) -> Option<String> {
 pub(crate) enum Cell {
     Blank,
     Number(f64),
+    /// A complex number: its real and its imaginary part.
+    Complex([f64; 2]),
     /// A date or a time of day.
     Stamp(Stamp),
     Words,
@@ -108,6 +110,9 @@ impl Cell {
         if let Some(value) = decimal.number(inner) {
             return Self::Number(value);
         }
+        if let Some(parts) = complex(inner, decimal) {
+            return Self::Complex(parts);
+        }
         match inner {
             "true" | "True" | "TRUE" => Self::Number(1.0),
             "false" | "False" | "FALSE" => Self::Number(0.0),
@@ -117,8 +122,23 @@ impl Cell {
     }
 
     pub(crate) fn is_value(self) -> bool {
-        matches!(self, Self::Number(_) | Self::Stamp(_))
+        matches!(self, Self::Number(_) | Self::Complex(_) | Self::Stamp(_))
     }
+}
+
+/// Real and imaginary part of a number such as `1.2-0.3j`, `(1.2e-3 + 4i)` or `0.3j`.
+fn complex(cell: &str, decimal: Decimal) -> Option<[f64; 2]> {
+    let bare = cell.strip_prefix('(').and_then(|c| c.strip_suffix(')')).unwrap_or(cell);
+    let parts = bare.strip_suffix(['i', 'j'])?.trim_end_matches('*');
+    if !parts.contains(|c: char| c.is_ascii_digit()) {
+        return None;
+    }
+    let is_sign = |(at, _): &(usize, &str)| !parts[..*at].trim_end().ends_with(['e', 'E']);
+    let sign = parts.rmatch_indices(['+', '-']).find(is_sign).map_or(0, |(at, _)| at);
+    let (real, imag) = parts.split_at(sign);
+    let number = |part: &str| decimal.number(&part.replace(' ', ""));
+    let real = if real.trim().is_empty() { Some(0.0) } else { number(real) };
+    Some([real?, number(imag)?])
 }
 
 #[cfg(test)]
@@ -131,6 +151,24 @@ mod tests {
         assert_eq!(of(Separator::Char(','), "1, \"a, b\" ,,3"), ["1", "a, b", "", "3"]);
         assert_eq!(of(Separator::Char('\t'), "1\t\t3\t"), ["1", "", "3", ""]);
         assert_eq!(of(Separator::Blanks, "  1   2\t3 "), ["1", "2", "3"]);
+    }
+
+    #[test]
+    fn complex_numbers() {
+        let cases = [
+            ("1.5-0.25j", [1.5, -0.25]),
+            ("(1.5e-3+2e+2j)", [1.5e-3, 200.0]),
+            ("-1.5 - 0.5i", [-1.5, -0.5]),
+            ("0.5j", [0.0, 0.5]),
+            ("-2e-1*i", [0.0, -0.2]),
+        ];
+        for (cell, parts) in cases {
+            assert_eq!(Cell::of(cell, Decimal::Point), Cell::Complex(parts), "{cell}");
+        }
+        assert_eq!(Cell::of("1,5+2,5j", Decimal::Comma), Cell::Complex([1.5, 2.5]));
+        for other in ["j", "i", "+j", "joint_i", "1+j", "1.5+0.5k", "(deg)"] {
+            assert_eq!(Cell::of(other, Decimal::Point), Cell::Words, "{other}");
+        }
     }
 
     #[test]

@@ -7,6 +7,8 @@ use crate::log_data::{Channel, Clock};
 /// A column that is being read.
 pub(crate) struct Column {
     values: Vec<f64>,
+    /// The imaginary parts, up to the last complex number.
+    imaginary: Vec<f64>,
     /// The first stamp, from which stamps are counted: so their decimals are kept.
     first: Option<Stamp>,
     /// A time of day that goes back by more than half a day passed midnight.
@@ -17,12 +19,17 @@ pub(crate) struct Column {
 impl Column {
     pub(crate) fn new(rows: usize) -> Self {
         let values = Vec::with_capacity(rows);
-        Self { values, first: None, last_s: 0.0, not_a_number: None }
+        Self { values, imaginary: Vec::new(), first: None, last_s: 0.0, not_a_number: None }
     }
 
     pub(crate) fn take(&mut self, cell: &str, decimal: Decimal, row: usize) {
         let value = match Cell::of(cell, decimal) {
             Cell::Number(value) => value,
+            Cell::Complex([real, imag]) => {
+                self.imaginary.resize(self.values.len(), 0.0);
+                self.imaginary.push(imag);
+                real
+            }
             Cell::Stamp(stamp) => {
                 let mut since_s = stamp.since_s(*self.first.get_or_insert(stamp));
                 if !stamp.has_date() && self.last_s - since_s > HALF_DAY_S {
@@ -44,6 +51,26 @@ impl Column {
         let unit = if self.first.is_some() { Some("s".to_owned()) } else { unit };
         let Self { values, not_a_number, .. } = self;
         Channel { unit, not_a_number, ..Channel::of(name, values) }
+    }
+
+    /// Appends its channel, or two if it has complex numbers: `NAME/real` and `NAME/imag`.
+    pub(crate) fn push_channels(
+        mut self,
+        name: String,
+        unit: Option<String>,
+        channels: &mut Vec<Channel>,
+    ) {
+        if self.imaginary.is_empty() {
+            channels.push(self.channel(name, unit));
+            return;
+        }
+        let mut imag = std::mem::take(&mut self.imaginary);
+        imag.resize(self.values.len(), 0.0);
+        for (imag, real) in imag.iter_mut().zip(&self.values).filter(|(_, real)| real.is_nan()) {
+            *imag = *real;
+        }
+        channels.push(self.channel(format!("{name}/real"), unit.clone()));
+        channels.push(Channel { unit, ..Channel::of(format!("{name}/imag"), imag) });
     }
 
     /// Appends a number.

@@ -1,6 +1,7 @@
 //! What the lines above a table state about its columns: units, and the time between two rows.
 
 use super::cells::{Decimal, Separator};
+use super::header::Header;
 use crate::log_data::{Channel, Clock};
 use crate::unit;
 
@@ -82,15 +83,18 @@ impl Preamble {
         }
     }
 
-    /// Gives the channels their units, and their clock if no column is the time.
-    pub(super) fn apply(self, channels: &mut [Channel]) {
-        for (column, unit) in self.units {
-            if let Some(channel) = channels.get_mut(column)
-                && channel.unit.is_none()
-            {
-                channel.unit = Some(unit);
+    /// Gives the columns their units where the header has none.
+    pub(super) fn complete(&self, header: &mut Header, width: usize) {
+        header.units.resize(width, None);
+        for (column, unit) in &self.units {
+            if let Some(none @ None) = header.units.get_mut(*column) {
+                *none = Some(unit.clone());
             }
         }
+    }
+
+    /// Gives the channels their clock if none is the time.
+    pub(super) fn set_clock(&self, channels: &mut [Channel]) {
         let Some(step_s) = self.step_s.filter(|step_s| *step_s > 0.0 && step_s.is_finite()) else {
             return;
         };

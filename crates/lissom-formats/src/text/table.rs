@@ -53,14 +53,15 @@ impl Table<'_> {
             let reason = format!("the table of numbers ends at \"{text}\", and more follows");
             return Err(FormatError::content(format!("row {}", row + 1), reason));
         }
-        let header = self.header(header_row)?;
+        let mut header = self.header(header_row)?;
+        let preamble = Preamble::of(&self.lines[..self.first], self.separator, self.decimal);
+        preamble.complete(&mut header, self.width);
         let above = header.line.unwrap_or(self.first);
         if above > 0 {
             notes.push(format!("{above} lines above the table are left out"));
         }
         let mut channels = self.columns(&header, end);
-        let above = &self.lines[..self.first];
-        Preamble::of(above, self.separator, self.decimal).apply(&mut channels);
+        preamble.set_clock(&mut channels);
         stamp_pairs::append(&mut channels);
         Ok(LogData {
             format: Format::Text,
@@ -98,17 +99,20 @@ impl Table<'_> {
                 column.take(cells.next().unwrap_or(""), self.decimal, row + 1);
             }
         }
-        let named = |(k, column): (usize, Column)| {
+        let mut channels = Vec::with_capacity(self.width);
+        for (k, column) in columns.into_iter().enumerate() {
             let name = header.names.get(k).cloned().unwrap_or_default();
-            column.channel(name, header.units.get(k).cloned().flatten())
-        };
-        columns.into_iter().enumerate().map(named).collect()
+            let unit = header.units.get(k).cloned().flatten();
+            column.push_channels(name, unit, &mut channels);
+        }
+        channels
     }
 
     /// One row for each signal, with its name in the first cell or without a name.
     fn by_rows(&self) -> LogData {
         let rows = (self.first..self.end).filter(|k| !is_skipped(self.lines[*k]));
-        let channel = |row: usize| {
+        let mut channels = Vec::new();
+        for row in rows {
             let cells: Vec<&str> = self.separator.cells(self.lines[row]).collect();
             let named = cells.first().is_some_and(|c| Cell::of(c, self.decimal) == Cell::Words);
             let mut column = Column::new(cells.len());
@@ -117,11 +121,11 @@ impl Table<'_> {
             }
             let name = if named { cells[0].to_owned() } else { String::new() };
             let unit = crate::unit::in_name(&name);
-            column.channel(name, unit)
-        };
+            column.push_channels(name, unit, &mut channels);
+        }
         LogData {
             format: Format::TextByRow,
-            channels: rows.map(channel).collect(),
+            channels,
             decimal_comma: self.decimal == Decimal::Comma,
             notes: Vec::new(),
         }

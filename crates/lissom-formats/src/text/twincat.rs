@@ -31,6 +31,9 @@ pub(crate) fn read(table: &Table<'_>) -> Option<LogData> {
         Channel { name: name.to_owned(), unit, clock: Clock::Channel(k - 1), ..column }
     };
     let columns = table.columns(&Header::default(), table.end);
+    if columns.len() != table.width {
+        return None;
+    }
     Some(LogData {
         format: Format::TwinCat,
         channels: columns.into_iter().enumerate().map(channel).collect(),

@@ -13,6 +13,9 @@ def channels(name, array):
     array = np.asarray(array)
     if array.size == 0:
         return []
+    if array.dtype.kind == "c":
+        parts = (("real", array.real), ("imag", array.imag))
+        return [{**c, "name": f"{c['name']}/{part}"} for part, values in parts for c in channels(name, values)]
     array = array.reshape([length for length in array.shape if length > 1])
     if array.ndim <= 1:
         return [channel(name, array.reshape(-1))]

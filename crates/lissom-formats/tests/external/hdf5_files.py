@@ -16,12 +16,9 @@ KINDS = "i1,i2,i4,i8,u1,u2,u4,u8,f2,f4,f8"
 def of_array(name, array):
     """The channels of an array; those of a compound type by field."""
     array = np.asarray(array)
-    if array.dtype.kind == "c":
-        # The names that h5py gives the two fields.
-        return [expected.channel(f"{name}/r", array.real), expected.channel(f"{name}/i", array.imag)]
     if array.dtype.names is not None:
         return [c for field in array.dtype.names for c in of_array(f"{name}/{field}", array[field])]
-    if array.dtype.kind not in "biuf":
+    if array.dtype.kind not in "biufc":
         return []
     return expected.channels(name, array)
 

@@ -26,7 +26,7 @@ def flatten(name, value):
     """The channels of a value, as loadmat returns it."""
     if scipy.sparse.issparse(value) or isinstance(value, (matlab.MatlabFunction, matlab.MatlabOpaque)):
         return []
-    if not isinstance(value, np.ndarray) or value.dtype.kind in "USc":
+    if not isinstance(value, np.ndarray) or value.dtype.kind in "US":
         return []
     if value.dtype.names is not None:
         elements = [value[place] for place in np.ndindex(value.shape[::-1]) for place in [place[::-1]]]
