@@ -98,6 +98,16 @@ fn commas_in_quotes_are_decimal_or_between_thousands() {
     let found = read(&("t,i,q\n".to_owned() + &text));
     assert!(!found.decimal_comma);
     has(&found.channels[1], 1, 1234.0);
+    assert!(found.notes.is_empty(), "{:?}", found.notes);
+    let text = |separator: &str| {
+        let row = |k| format!("{k}{separator}\"1,{}\"\n", 100 + k);
+        format!("t{separator}q\n{}", (0..20).map(row).collect::<String>())
+    };
+    for (separator, value) in [(",", 1100.0), (";", 1.1)] {
+        let found = read(&text(separator));
+        assert!((found.channels[1].values[0] - value).abs() < 1e-9);
+        assert!(found.notes[0].starts_with("commas are ambiguous"), "{:?}", found.notes);
+    }
 }
 
 #[test]
@@ -130,6 +140,10 @@ fn oscilloscopes_state_units_and_samples_in_the_lines_above() {
                      Labels,,,\nTIME,CH1,CH2\n";
     let siglent = "Record Length,Analog:60,,\nSample Interval,0.002,,\nVertical Units,CH1:V,CH2:A,\n\
                    Source,CH1,CH2,\nSecond,Volt,Ampere,\n";
+    let yokogawa = "\"HResolution\",2.0e-3\n\"HUnit\",\"s\"\n\"VUnit\",\"V\",\"A\"\n\"Trace\",\"CH1\",\"CH2\"\n";
+    let found = read(&(yokogawa.to_owned() + &lines(|[_, i, q]| format!(",{i},{q}"))));
+    assert_eq!(units(&found)[1..], [Some("V"), Some("A")]);
+    assert_eq!(found.channels[2].clock, Clock::Even { start_s: 0.0, step_s: 2e-3 });
     let pico = "Time,Channel A,Channel B\n(s),(V),(A)\n\n";
     let cases = [
         (tektronix, ["TIME", "CH1", "CH2"], ["s", "V", "A"]),

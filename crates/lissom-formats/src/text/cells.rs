@@ -13,6 +13,15 @@ impl Separator {
     pub(crate) const ALL: [Self; 4] =
         [Self::Char('\t'), Self::Char(';'), Self::Char(','), Self::Blanks];
 
+    /// How the numbers between such separators may write decimals, the most usual way first. Where a comma separates cells,
+    /// a comma in quotes is more often between thousands.
+    pub(crate) fn decimals(self) -> [Decimal; 3] {
+        match self {
+            Self::Char(',') => [Decimal::Point, Decimal::Grouped, Decimal::Comma],
+            _ => [Decimal::Point, Decimal::Comma, Decimal::Grouped],
+        }
+    }
+
     /// The cells of a row, without blanks and quotes around them. Separators in quotes do not count.
     pub(crate) fn cells(self, row: &str) -> impl Iterator<Item = &str> + Clone {
         let mut rest = Some(row.trim_matches(|c| c == ' ' || c == '\r'));
@@ -51,9 +60,6 @@ pub(crate) enum Decimal {
 }
 
 impl Decimal {
-    /// The usual ones first: of those with as many values the first one is taken.
-    pub(crate) const ALL: [Self; 3] = [Self::Point, Self::Comma, Self::Grouped];
-
     /// Reads a number.
     pub(super) fn number(self, text: &str) -> Option<f64> {
         if let Ok(value) = text.parse() {

@@ -13,7 +13,7 @@ pub(super) const MANY_COLUMNS: usize = 50;
 /// Finds the table below the first `skipped` lines, with a decimal comma or without one if that is stated.
 pub(crate) fn find(text: &str, skipped: usize, decimal_comma: Option<bool>) -> Option<Table<'_>> {
     let separators = Separator::ALL.into_iter();
-    let candidates = separators.flat_map(|s| Decimal::ALL.map(|decimal| (s, decimal)));
+    let candidates = separators.flat_map(|s| s.decimals().map(|decimal| (s, decimal)));
     let fits = |decimal: Decimal| decimal_comma.is_none_or(|c| c == (decimal == Decimal::Comma));
     find_separated(text, skipped, candidates.filter(|(_, decimal)| fits(*decimal)))
 }
@@ -32,18 +32,23 @@ fn find_separated(
 ) -> Option<Table<'_>> {
     let lines: Vec<&str> = text.lines().collect();
     let ends_in_a_row = !text.ends_with(['\n', '\r']);
-    let mut best = None;
+    let mut best: Option<(Separator, Decimal, Block)> = None;
     let mut most = (false, 0);
+    let mut may_be_other = false;
     for (separator, decimal) in candidates {
         let Some(block) = block(&lines, skipped, separator, decimal) else { continue };
         let rank = (block.end - block.first >= LONG || block.width >= MANY_COLUMNS, block.values);
+        let is_as_good = rank == most && decimal != Decimal::Point;
+        may_be_other |= is_as_good
+            && best.as_ref().is_some_and(|(s, d, _)| *s == separator && *d != Decimal::Point);
         if rank > most {
             most = rank;
             best = Some((separator, decimal, block));
+            may_be_other = false;
         }
     }
     let (separator, decimal, Block { first, end, width, .. }) = best?;
-    Some(Table { lines, separator, decimal, first, end, width, ends_in_a_row })
+    Some(Table { lines, separator, decimal, may_be_other, first, end, width, ends_in_a_row })
 }
 
 /// A block of rows of numbers.

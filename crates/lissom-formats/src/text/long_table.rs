@@ -66,7 +66,7 @@ pub(crate) fn read(text: &str) -> Option<Result<LogData, FormatError>> {
             ))
         })
         .collect();
-    let decimal = decimal(&rows.iter().map(|(_, [_, _, value])| *value));
+    let decimal = decimal(places.separator, &rows.iter().map(|(_, [_, _, value])| *value));
     let mut times = Column::new(rows.len());
     for (row, [time, ..]) in &rows {
         times.take(time, decimal, *row);
@@ -95,9 +95,9 @@ pub(crate) fn read(text: &str) -> Option<Result<LogData, FormatError>> {
 }
 
 /// How these cells write decimals: the first way in which most of them are numbers.
-fn decimal<'a>(cells: &(impl Iterator<Item = &'a str> + Clone)) -> Decimal {
+fn decimal<'a>(separator: Separator, cells: &(impl Iterator<Item = &'a str> + Clone)) -> Decimal {
     let numbers = |decimal: Decimal| cells.clone().filter(|c| decimal.number(c).is_some()).count();
-    let [mut best, others @ ..] = Decimal::ALL;
+    let [mut best, others @ ..] = separator.decimals();
     for other in others {
         if numbers(other) > numbers(best) {
             best = other;

@@ -6,7 +6,7 @@ use crate::log_data::{Channel, Clock};
 use crate::unit;
 
 /// First cells of a row of units.
-const UNITS: [&str; 5] = ["y_unit_label", "vertical units", "unit", "units", "einheit"];
+const UNITS: [&str; 6] = ["y_unit_label", "vertical units", "vunit", "unit", "units", "einheit"];
 /// Names of the time between two rows.
 const STEP: [&str; 8] = [
     "sample interval",
@@ -69,7 +69,7 @@ impl Preamble {
             }
         };
         match (key.as_str(), cells.first()) {
-            ("horizontal units", Some(unit)) => take(0, unit),
+            ("horizontal units" | "hunit", Some(unit)) => take(0, unit),
             ("x_dimension", Some(&"Time")) => take(0, "s"),
             ("x_dimension", Some(_)) => self.is_no_time = true,
             (key, _) if UNITS.contains(&key) => {

@@ -20,6 +20,8 @@ pub(crate) struct Table<'a> {
     pub(crate) lines: Vec<&'a str>,
     pub(crate) separator: Separator,
     pub(crate) decimal: Decimal,
+    /// Whether its commas may be decimal or between thousands.
+    pub(super) may_be_other: bool,
     /// First line of numbers, from 0.
     pub(crate) first: usize,
     /// One line after the last one of the block.
@@ -59,6 +61,11 @@ impl Table<'_> {
         let above = header.line.unwrap_or(self.first);
         if above > 0 {
             notes.push(format!("{above} lines above the table are left out"));
+        }
+        if self.may_be_other {
+            let read_as = if self.decimal == Decimal::Comma { "1.234" } else { "1234" };
+            notes
+                .push(format!("commas are ambiguous: numbers such as 1,234 are read as {read_as}"));
         }
         let mut channels = self.columns(&header, end);
         preamble.set_clock(&mut channels);
