@@ -14,8 +14,14 @@ pub(super) const MANY_COLUMNS: usize = 50;
 pub(crate) fn find(text: &str, skipped: usize, decimal_comma: Option<bool>) -> Option<Table<'_>> {
     let separators = Separator::ALL.into_iter();
     let candidates = separators.flat_map(|s| s.decimals().map(|decimal| (s, decimal)));
-    let fits = |decimal: Decimal| decimal_comma.is_none_or(|c| c == (decimal == Decimal::Comma));
-    find_separated(text, skipped, candidates.filter(|(_, decimal)| fits(*decimal)))
+    let (has_commas, has_quotes) = (text.contains(','), text.contains('"'));
+    let is_possible = |(separator, decimal): &(Separator, Decimal)| {
+        let is_stated = decimal_comma.is_none_or(|comma| comma == (*decimal == Decimal::Comma));
+        // Between commas, a comma belongs to a number only in quotes.
+        let has_its_commas = has_commas && (has_quotes || *separator != Separator::Char(','));
+        is_stated && (*decimal == Decimal::Point || has_its_commas)
+    };
+    find_separated(text, skipped, candidates.filter(is_possible))
 }
 
 /// Finds the table in a text whose cells are separated by tabs.
@@ -90,7 +96,8 @@ fn block(lines: &[&str], skipped: usize, separator: Separator, decimal: Decimal)
     let mut best: Option<Block> = None;
     let mut at = skipped;
     while at < lines.len() {
-        if Row::of(lines[at], separator, decimal).is_none_or(|row| row.width < 2) {
+        let is_one_cell = || separator.cells(lines[at]).nth(1).is_none();
+        if is_one_cell() || Row::of(lines[at], separator, decimal).is_none_or(|row| row.width < 2) {
             at += 1;
             continue;
         }
