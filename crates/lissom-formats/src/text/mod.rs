@@ -22,8 +22,15 @@ use crate::format_error::FormatError;
 use crate::log_data::LogData;
 use crate::read_options::ReadOptions;
 
+/// Most lines of a text, which take 2 GiB of memory in addition to it.
+const MOST_LINES: usize = 1 << 27;
+
 /// Reads a text that contains a table.
 pub(crate) fn read(text: &str, options: &ReadOptions) -> Result<LogData, FormatError> {
+    if text.bytes().filter(|byte| *byte == b'\n').count() > MOST_LINES {
+        let reason = format!("it has more than {MOST_LINES} lines");
+        return Err(FormatError::content("text", reason));
+    }
     if let Some(found) = codesys::read(text) {
         return Ok(found);
     }
