@@ -69,10 +69,12 @@ impl Decimal {
             Self::Point => None,
             Self::Comma => {
                 let (whole, decimals) = text.split_once(',')?;
-                let whole = grouped(whole, '.').unwrap_or_else(|| whole.to_owned());
-                let is_one =
-                    !whole.contains('.') && decimals.starts_with(|c: char| c.is_ascii_digit());
-                is_one.then(|| format!("{whole}.{decimals}").parse().ok())?
+                decimals.starts_with(|c: char| c.is_ascii_digit()).then_some(())?;
+                match grouped(whole, '.') {
+                    Some(whole) => format!("{whole}.{decimals}").parse().ok(),
+                    None if whole.contains('.') => None,
+                    None => text.replacen(',', ".", 1).parse().ok(),
+                }
             }
             Self::Grouped => {
                 let (whole, decimals) = text.split_at(text.find('.').unwrap_or(text.len()));
@@ -84,6 +86,9 @@ impl Decimal {
 
 /// A whole number without the signs between its thousands; `None` if it has none.
 fn grouped(text: &str, sign: char) -> Option<String> {
+    if !text.contains(sign) {
+        return None;
+    }
     let mut groups = text.split(sign);
     let first = groups.next()?.trim_start_matches(['-', '+']);
     let are_digits = |group: &str| group.bytes().all(|byte| byte.is_ascii_digit());
