@@ -60,6 +60,14 @@ fn dates_are_counted_from_the_first_one_with_all_decimals() {
         let text = lines(|[t, i, _]| format!("2024-06-11 10:00:0{t:.3}{zone},{i}"));
         has(&read(&("time,i\n".to_owned() + &text)).channels[0], 0, 0.0);
     }
+    let python = lines(|[t, i, q]| {
+        format!("{},{i},{q}", format!("2024-06-11 10:00:0{t:.3}").replace('.', ","))
+    });
+    let found = read(&("time,i,q\n".to_owned() + &python));
+    assert_eq!(names(&found), ["time", "i", "q"]);
+    (0..3).for_each(|k| has(&found.channels[k], k, 0.0));
+    let whole_seconds = "time,speed,q\n10:00:00,950,1\n10:00:01,980,2\n10:00:02,990,3\n";
+    assert_eq!(read(whole_seconds).channels[1].values, [950.0, 980.0, 990.0]);
     let comma = lines(|[t, i, _]| format!("10:00:0{t:.3};{i}").replace('.', ","));
     has(&read(&("time;i\n".to_owned() + &comma)).channels[0], 0, 0.0);
 }

@@ -6,6 +6,8 @@ use super::stamps::Stamp;
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum Separator {
     Char(char),
+    /// Commas, but not that before three digits behind a time of day: `10:00:00,125`.
+    CommaAfterStamp,
     Blanks,
 }
 
@@ -31,23 +33,34 @@ impl Separator {
         std::iter::from_fn(move || {
             let row = rest?;
             let mut quoted = false;
-            let ends = |c: char| {
-                quoted ^= c == '"';
+            let ends = |(at, c): &(usize, char)| {
+                quoted ^= *c == '"';
                 !quoted
                     && match self {
-                        Self::Char(separator) => c == separator,
+                        Self::Char(separator) => *c == separator,
+                        Self::CommaAfterStamp => *c == ',' && !is_in_stamp(row, *at),
                         Self::Blanks => c.is_whitespace(),
                     }
             };
-            let end = row.find(ends);
+            let end = row.char_indices().find(ends).map(|(at, _)| at);
             let cell = &row[..end.unwrap_or(row.len())];
             rest = end.map(|at| match self {
                 Self::Char(separator) => &row[at + separator.len_utf8()..],
+                Self::CommaAfterStamp => &row[at + 1..],
                 Self::Blanks => row[at..].trim_start(),
             });
             Some(cell.trim().trim_matches('"').trim())
         })
     }
+}
+
+/// Whether a comma is in a time of day: behind `:00`, and before three digits.
+fn is_in_stamp(row: &str, comma: usize) -> bool {
+    let (before, after) = (row.as_bytes().get(..comma), row.as_bytes().get(comma + 1..));
+    let is_time =
+        matches!(before, Some([.., b':', a, b]) if a.is_ascii_digit() && b.is_ascii_digit());
+    let digits = after.unwrap_or_default().iter().take_while(|byte| byte.is_ascii_digit()).count();
+    is_time && digits == 3
 }
 
 /// How a text writes decimals.

@@ -53,8 +53,24 @@ fn find_separated(
             may_be_other = false;
         }
     }
-    let (separator, decimal, Block { first, end, width, .. }) = best?;
+    let (mut separator, decimal, mut found) = best?;
+    // A comma before the fraction of a second makes one cell more than the header has.
+    let stamped = Separator::CommaAfterStamp;
+    if separator == Separator::Char(',')
+        && cells_above(&lines, found.first, stamped) + 1 == found.width
+        && let Some(other) = block(&lines, skipped, stamped, decimal)
+        && (other.first, other.end, other.width + 1) == (found.first, found.end, found.width)
+    {
+        (separator, found) = (stamped, other);
+    }
+    let Block { first, end, width, .. } = found;
     Some(Table { lines, separator, decimal, may_be_other, first, end, width, ends_in_a_row })
+}
+
+/// Number of cells of the line above a table.
+fn cells_above(lines: &[&str], first: usize, separator: Separator) -> usize {
+    let above = lines[..first].iter().rev().find(|line| !line.trim().is_empty());
+    above.map_or(0, |line| separator.cells(line).count())
 }
 
 /// A block of rows of numbers.
