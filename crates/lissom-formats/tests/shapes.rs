@@ -241,4 +241,7 @@ fn a_stated_header_row_has_the_names() {
     let found = read("t;q\n0;1,234\n1;2,345\n2;3\n".to_owned(), thousands).unwrap();
     assert_eq!(found.channels[1].values, [1234.0, 2345.0, 3.0]);
     assert!(!found.decimal_comma);
+    let comma = ReadOptions { decimal_comma: Some(true), ..ReadOptions::default() };
+    let found = read("t;q\n0;1\n1;2\n2;3\n".to_owned(), comma).unwrap();
+    assert_eq!(found.channels[1].values, [1.0, 2.0, 3.0]);
 }

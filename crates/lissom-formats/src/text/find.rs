@@ -19,7 +19,7 @@ pub(crate) fn find(text: &str, skipped: usize, decimal_comma: Option<bool>) -> O
         let is_stated = decimal_comma.is_none_or(|comma| comma == (*decimal == Decimal::Comma));
         // Between commas, a comma belongs to a number only in quotes.
         let has_its_commas = has_commas && (has_quotes || *separator != Separator::Char(','));
-        is_stated && (*decimal == Decimal::Point || has_its_commas)
+        is_stated && (*decimal == Decimal::Point || has_its_commas || decimal_comma == Some(true))
     };
     find_separated(text, skipped, candidates.filter(is_possible))
 }
