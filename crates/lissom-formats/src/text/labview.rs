@@ -6,6 +6,7 @@ use super::stamps::Stamp;
 use crate::format::Format;
 use crate::format_error::FormatError;
 use crate::log_data::{Channel, Clock, LogData};
+use crate::read_options::ReadOptions;
 
 /// First words of a file.
 const BEGIN: &str = "LabVIEW Measurement";
@@ -15,7 +16,7 @@ const HEADER_END: &str = "***End_of_Header***";
 const SEGMENT: &str = "Channels";
 
 /// Reads a text if it is such a file.
-pub(super) fn read(text: &str) -> Option<Result<LogData, FormatError>> {
+pub(super) fn read(text: &str, options: &ReadOptions) -> Option<Result<LogData, FormatError>> {
     if !text.starts_with(BEGIN) {
         return None;
     }
@@ -30,15 +31,19 @@ pub(super) fn read(text: &str) -> Option<Result<LogData, FormatError>> {
     }
     let ends = places.iter().skip(1).copied().chain([text.len()]);
     let segments = places.iter().zip(ends).filter_map(|(from, end)| text.get(*from..end));
-    (!places.is_empty()).then(|| joined(segments))
+    (!places.is_empty()).then(|| joined(segments, options))
 }
 
 /// The channels of all segments, one after the other.
-fn joined<'a>(segments: impl Iterator<Item = &'a str>) -> Result<LogData, FormatError> {
+fn joined<'a>(
+    segments: impl Iterator<Item = &'a str>,
+    options: &ReadOptions,
+) -> Result<LogData, FormatError> {
     let mut all: Option<(LogData, Option<Stamp>)> = None;
     for (number, segment) in (1..).zip(segments) {
         let wrong = |reason: &str| FormatError::content(format!("segment {number}"), reason);
-        let table = find(segment, 0, None).ok_or_else(|| wrong("it has no table of numbers"))?;
+        let table = find(segment, 0, options.decimal_comma);
+        let table = table.ok_or_else(|| wrong("it has no table of numbers"))?;
         let begin = begin(segment, table.separator);
         let found = table.read(None).map_err(|error| match error {
             FormatError::Content { place, reason } => wrong(&format!("{place}: {reason}")),

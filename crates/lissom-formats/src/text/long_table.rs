@@ -9,6 +9,7 @@ use crate::collected::{Collected, LeftOut};
 use crate::format::Format;
 use crate::format_error::FormatError;
 use crate::log_data::LogData;
+use crate::read_options::ReadOptions;
 use crate::unit;
 
 /// Names of the three columns, in small letters.
@@ -49,7 +50,7 @@ impl Places {
 }
 
 /// Reads a text if it is such a table.
-pub(crate) fn read(text: &str) -> Option<Result<LogData, FormatError>> {
+pub(crate) fn read(text: &str, options: &ReadOptions) -> Option<Result<LogData, FormatError>> {
     let mut lines = (1..).zip(text.lines()).filter(|(_, line)| !is_skipped(line));
     let header = lines.next()?.1;
     let places = Places::of(header)?;
@@ -66,7 +67,11 @@ pub(crate) fn read(text: &str) -> Option<Result<LogData, FormatError>> {
             ))
         })
         .collect();
-    let decimal = decimal(places.separator, &rows.iter().map(|(_, [_, _, value])| *value));
+    let decimal = decimal(
+        places.separator,
+        &rows.iter().map(|(_, [_, _, value])| *value),
+        options.decimal_comma,
+    );
     let mut times = Column::new(rows.len());
     for (row, [time, ..]) in &rows {
         times.take(time, decimal, *row);
@@ -94,12 +99,18 @@ pub(crate) fn read(text: &str) -> Option<Result<LogData, FormatError>> {
     Some(found.map(|found| LogData { decimal_comma: decimal == Decimal::Comma, ..found }))
 }
 
-/// How these cells write decimals: the first way in which most of them are numbers.
-fn decimal<'a>(separator: Separator, cells: &(impl Iterator<Item = &'a str> + Clone)) -> Decimal {
+/// How these cells write decimals: the first way in which most of them are numbers, with a decimal comma or without one if
+/// that is stated.
+fn decimal<'a>(
+    separator: Separator,
+    cells: &(impl Iterator<Item = &'a str> + Clone),
+    comma: Option<bool>,
+) -> Decimal {
     let numbers = |decimal: Decimal| cells.clone().filter(|c| decimal.number(c).is_some()).count();
-    let [mut best, others @ ..] = separator.decimals();
-    for other in others {
-        if numbers(other) > numbers(best) {
+    let mut best = if comma == Some(true) { Decimal::Comma } else { Decimal::Point };
+    for other in separator.decimals() {
+        let is_stated = comma.is_none_or(|comma| comma == (other == Decimal::Comma));
+        if is_stated && numbers(other) > numbers(best) {
             best = other;
         }
     }

@@ -35,7 +35,8 @@ pub(crate) fn read(text: &str, options: &ReadOptions) -> Result<LogData, FormatE
         return Ok(found);
     }
     if options.header_row.is_none()
-        && let Some(found) = long_table::read(text).or_else(|| labview::read(text))
+        && let Some(found) =
+            long_table::read(text, options).or_else(|| labview::read(text, options))
     {
         return found;
     }
