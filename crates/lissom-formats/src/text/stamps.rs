@@ -51,10 +51,11 @@ fn of_zone(time: &str) -> Option<f64> {
     let zone = &time[at + 1..];
     let (hours, minutes) = match zone.split_once(':') {
         Some(parts) => parts,
-        None if zone.len() == 4 => zone.split_at(2),
+        None if zone.len() == 4 => zone.split_at_checked(2)?,
         None => (zone, "0"),
     };
-    let east = 3600.0 * hours.parse::<f64>().ok()? + 60.0 * minutes.parse::<f64>().ok()?;
+    let number = |text: &str| text.parse::<u8>().ok().map(f64::from);
+    let east = 3600.0 * number(hours)? + 60.0 * number(minutes)?;
     Some(of_day(&time[..at])? - sign * east)
 }
 
@@ -149,6 +150,9 @@ mod tests {
             "1:2:3:4",
             "6/11 10:00:00",
             "1.2.3 10:00:00",
+            // The second byte is inside a character.
+            "2024-06-11 11:59:59+P\u{192}M",
+            "2024-06-11 11:59:59+inf",
         ] {
             assert_eq!(seconds(other), None, "{other}");
         }
