@@ -1,7 +1,5 @@
 //! The clock of another log, found from motions whose response is known in closed form.
 
-#![expect(clippy::unwrap_used, reason = "tests")]
-
 use lissom_core::record::other_clock::{
     Follows, OtherClock, OtherClockError, StampedSignal, other_clock,
 };
@@ -51,8 +49,6 @@ fn found(
     other: &(Vec<f64>, Vec<f64>),
     follows: Follows,
 ) -> Result<OtherClock, OtherClockError> {
-    let signal = |log: &(Vec<f64>, Vec<f64>)| log.clone();
-    let (motor, other) = (signal(motor), signal(other));
     other_clock(
         StampedSignal { stamps_s: &motor.0, values: &motor.1 },
         StampedSignal { stamps_s: &other.0, values: &other.1 },
@@ -60,13 +56,15 @@ fn found(
     )
 }
 
+/// A signal over the time of the motor's log.
+type Signal = fn(f64) -> f64;
+
 #[test]
 fn offset_and_drift_are_found_from_each_kind_of_signal() {
     let motor = log(500.0, (2.0, 62.0), angle);
     let (offset, drift) = (-7.25, 150e-6);
     // A stamp of the other log is offset + (1 + drift)·t.
     let time = |stamp: f64| (stamp - offset) / (1.0 + drift);
-    type Signal = fn(f64) -> f64;
     let kinds: [(Follows, f64, Signal); 3] = [
         (Follows::Angle, 60.0, tip),
         (Follows::Acceleration, 200.0, deflection),

@@ -135,8 +135,6 @@ fn within<'a>(group: &str, rest: &'a str) -> Option<&'a str> {
 
 #[cfg(test)]
 mod tests {
-    #![expect(clippy::unwrap_used, reason = "tests")]
-
     use super::*;
     use crate::format::Format;
 

@@ -18,6 +18,12 @@ pub(crate) struct LogArgs {
     /// Column with the number of the run or trial, if a log has several runs
     #[arg(long, value_name = "COLUMN")]
     run: Option<String>,
+    /// Row of a text with the names of the columns, from 1 [default: found]
+    #[arg(long, value_name = "ROW", value_parser = row)]
+    header_row: Option<usize>,
+    /// Rows at the top of a text that do not count
+    #[arg(long, value_name = "ROWS", default_value_t = 0, hide_default_value = true)]
+    skip_rows: usize,
     /// Motor current [default: found]
     #[arg(long, value_name = "COLUMN:UNIT", value_parser = choice, group = "drive_input")]
     current: Option<Choice>,
@@ -72,6 +78,11 @@ fn choice(text: &str) -> Result<Choice, String> {
     })
 }
 
+fn row(text: &str) -> Result<usize, String> {
+    let number = text.parse::<usize>().ok().filter(|row| *row > 0);
+    number.ok_or_else(|| "rows are counted from 1".to_owned())
+}
+
 fn time_text(text: &str) -> Result<String, String> {
     positive_time(text).map(|_| text.to_owned())
 }
@@ -104,6 +115,8 @@ impl LogArgs {
             time: self.time.clone(),
             sample_time: self.sample_time.clone(),
             run: self.run.clone(),
+            header_row: self.header_row,
+            skip_rows: self.skip_rows,
             command: inputs.into_iter().find_map(|(key, said)| Some((key, said?))),
             motor: self.motor.clone(),
             speed: self.speed.clone(),

@@ -2,7 +2,7 @@
 
 use std::path::{Path, PathBuf};
 
-use lissom_io::inspect::{CampaignDraft, Description, DraftError, Inspection, inspect};
+use lissom_io::inspect::{CampaignDraft, Description, DraftError, Inspection, inspect_with};
 use lissom_io::{CampaignFile, read_campaign_text};
 
 use crate::shared::failure::Failure;
@@ -22,10 +22,10 @@ impl DescribedLogs {
     /// Looks at the first log, and makes a campaign of all.
     pub(crate) fn new(logs: &[PathBuf], said: &Description) -> Result<Self, Failure> {
         let first = logs.first().ok_or(lissom_io::Error::from(DraftError::NoLog))?;
-        let log = inspect(first)?;
+        let log = inspect_with(first, &said.text_options())?;
         let draft = CampaignDraft::new(&log, logs, said).map_err(lissom_io::Error::from)?;
         for other in &logs[1..] {
-            log.same_units(other)?;
+            log.same_units(other, &said.text_options())?;
         }
         Ok(Self { log, draft })
     }

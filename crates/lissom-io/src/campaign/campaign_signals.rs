@@ -3,16 +3,21 @@
 use lissom_core::record::{Axis, CommandQuantity, Hold, Tip, TipQuantity};
 
 use super::campaign_error::CampaignError;
+use super::campaign_file::ReadOptions;
 use super::own_logs::OwnLog;
 use crate::config::{ConfigError, Rule, Table, Value};
 use crate::io_error::Error;
-use crate::log::ColumnRef;
+use crate::log::{ColumnRef, LogOptions};
 use crate::units::{Dimension, UnitError};
 
 /// The source of each channel.
 pub(super) struct Signals {
     pub(super) time: TimeSource,
     pub(super) decimal_comma: bool,
+    /// Row with the names of the columns, from 1.
+    pub(super) header_row: Option<usize>,
+    /// Rows at the top of a log that do not count.
+    pub(super) skip_rows: usize,
     /// The column with the number of the run, if a log has several.
     pub(super) run: Option<ColumnRef>,
     pub(super) axis: Axis,
@@ -27,6 +32,18 @@ pub(super) struct Signals {
     pub(super) motor_log: Option<OwnLog>,
     /// The log of each tip, if it is not that of the run.
     pub(super) tip_logs: Vec<Option<OwnLog>>,
+}
+
+impl Signals {
+    /// How to read the logs of runs.
+    pub(super) fn log_options(&self, options: &ReadOptions) -> LogOptions {
+        LogOptions {
+            max_rows: options.max_rows,
+            decimal_comma: self.decimal_comma,
+            header_row: self.header_row,
+            skip_rows: self.skip_rows,
+        }
+    }
 }
 
 pub(super) enum TimeSource {
@@ -100,6 +117,8 @@ pub(super) fn signals(table: &Table<'_>) -> Result<Signals, Error> {
         "speed",
         "tips",
         "decimal",
+        "header_row",
+        "skip_rows",
     ])?;
     let time = match table.one_of(&["time", "sample_time"])? {
         None => return Err(none_of(table, &["time", "sample_time"]).into()),
@@ -141,10 +160,17 @@ pub(super) fn signals(table: &Table<'_>) -> Result<Signals, Error> {
         }
     };
     let decimal_comma = decimal == Some(1);
+    let row = |key: &str, least| {
+        let value = table.get(key).map(|v| v.whole(least, 1_000_000)).transpose();
+        value.map(|v| v.and_then(|v| usize::try_from(v).ok()))
+    };
+    let (header_row, skip_rows) = (row("header_row", 1)?, row("skip_rows", 0)?);
     let run = table.get("run").map(|value| column(&value)).transpose()?;
     Ok(Signals {
         time,
         decimal_comma,
+        header_row,
+        skip_rows: skip_rows.unwrap_or(0),
         run,
         axis,
         command,

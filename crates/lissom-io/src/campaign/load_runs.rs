@@ -34,7 +34,8 @@ pub(super) fn load(
     specs: &[RunSpec],
     options: &ReadOptions,
 ) -> Result<Campaign, Error> {
-    let specs = several_runs::of_specs(folder, signals.run.as_ref(), specs)?;
+    let specs =
+        several_runs::of_specs(folder, signals.run.as_ref(), specs, &signals.log_options(options))?;
     let mut names = Vec::with_capacity(specs.len());
     let mut named: HashMap<&str, usize> = HashMap::new();
     for spec in &specs {
@@ -66,8 +67,7 @@ fn load_run(
 ) -> Result<Vec<Run>, Error> {
     let path = folder.join(&spec.file);
     let file = spec.part.as_ref().map_or_else(|| path.display().to_string(), |p| p.label.clone());
-    let log_options =
-        LogOptions { max_rows: options.max_rows, decimal_comma: signals.decimal_comma };
+    let log_options = signals.log_options(options);
     let time = match &signals.time {
         TimeSource::Stamps(column, _) => Some(column),
         TimeSource::Steps(_) => None,
@@ -227,7 +227,7 @@ fn even_parts(
     }
     let (stamps_s, command, motor, tips, notes) = if has_own_logs(signals) {
         let mut all = RunSignals { stamps_s, command, motor, tips, notes: Vec::new() };
-        let log_options = LogOptions { max_rows: options.max_rows, decimal_comma: false };
+        let log_options = LogOptions { max_rows: options.max_rows, ..LogOptions::default() };
         RunLog { folder, spec, signals, options: &log_options, file }.join(&mut all)?;
         in_range(&all.command, &all.motor, &all.tips, signals, file)?;
         (all.stamps_s, all.command, all.motor, all.tips, all.notes)

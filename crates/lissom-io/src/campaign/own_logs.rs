@@ -220,10 +220,10 @@ impl Own {
     fn at_stamps(&self, of: &RunSignals, at: impl Fn(f64) -> f64) -> Vec<f64> {
         let mut steps: Vec<f64> = self.stamps_s.windows(2).map(|pair| pair[1] - pair[0]).collect();
         let middle = steps.len() / 2;
-        let median_s = match steps.is_empty() {
-            true => 0.0,
-            false => *steps.select_nth_unstable_by(middle, f64::total_cmp).1,
-        };
+        if steps.len() < 3 {
+            return vec![f64::NAN; of.stamps_s.len()];
+        }
+        let median_s = *steps.select_nth_unstable_by(middle, f64::total_cmp).1;
         let series = Series::of(&self.stamps_s, &self.values, Hold::Measured);
         let value = |stamp_s: &f64| {
             let here_s = at(*stamp_s);

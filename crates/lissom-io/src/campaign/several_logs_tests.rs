@@ -91,3 +91,20 @@ fn keys_of_another_log_need_its_file() {
     let error = read_logs(&campaign, &[]).unwrap_err();
     assert!(error.to_string().contains("`signals.motor.clock`"), "{error}");
 }
+
+#[test]
+fn the_header_of_a_text_can_be_stated() {
+    let table = table("t,i,q", (0..100).map(|k| [0.01 * f64::from(k), 1.0, f64::from(k)]));
+    let text = format!("1,2,3\n4,5,6\n{table}");
+    let stated = |key: &str| {
+        let campaign = format!("{HEAD}{MOTOR}{key}\n[[runs]]\nfile = \"a.csv\"\n");
+        read_logs(&campaign, &[("a.csv", &text)])
+    };
+    for key in ["header_row = 3", "skip_rows = 2"] {
+        let file = stated(key).unwrap();
+        assert_eq!(file.campaign.runs[0].len(), 100, "{key}");
+    }
+    let error = stated("header_row = 300").unwrap_err().to_string();
+    assert!(error.contains("a.csv"), "{error}");
+    assert!(stated("header_row = 0").is_err());
+}

@@ -4,13 +4,14 @@ use std::path::Path;
 
 use super::run_spec::RunSpec;
 use crate::io_error::Error;
-use crate::log::{ColumnRef, LogPath};
+use crate::log::{ColumnRef, LogOptions, LogPath};
 
 /// A run for each group that `FILE::GROUP` fits, and for each number in the column `run`.
 pub(super) fn of_specs(
     folder: &Path,
     run: Option<&ColumnRef>,
     specs: &[RunSpec],
+    options: &LogOptions,
 ) -> Result<Vec<RunSpec>, Error> {
     let mut runs = Vec::with_capacity(specs.len());
     for spec in specs {
@@ -19,7 +20,7 @@ pub(super) fn of_specs(
             runs.push(spec.clone());
             continue;
         }
-        let groups = path.parts()?;
+        let groups = path.parts(&options.of_text())?;
         let several = groups.len() > 1;
         for group in groups {
             let parts = match run {

@@ -3,7 +3,7 @@
 use std::fmt::Write as _;
 use std::path::{Path, PathBuf};
 
-use lissom_formats::Format;
+use lissom_formats::{Format, ReadOptions};
 
 use super::draft_error::DraftError;
 use super::inspected_channel::InspectedChannel;
@@ -34,6 +34,10 @@ pub struct Description {
     pub speed: Option<Choice>,
     /// Points of the arm.
     pub tips: Vec<Choice>,
+    /// Row with the names of the columns, from 1; found if absent.
+    pub header_row: Option<usize>,
+    /// Rows at the top of a log that do not count.
+    pub skip_rows: usize,
     /// Whether the command is held between samples (`sampled`) or a sensor's value (`measured`).
     pub hold: Option<String>,
     /// Keys of `[drive]`, with their values as a `campaign.toml` has them.
@@ -80,6 +84,17 @@ impl Line {
     }
 }
 
+impl Description {
+    /// How to read the logs.
+    pub fn text_options(&self) -> ReadOptions {
+        ReadOptions {
+            header_row: self.header_row,
+            skip_rows: self.skip_rows,
+            ..ReadOptions::default()
+        }
+    }
+}
+
 impl CampaignDraft {
     /// Makes a campaign of logs that have the same channels, of which `log` is the first.
     ///
@@ -98,6 +113,9 @@ impl CampaignDraft {
         lines.push(signals.motor()?);
         lines.extend(signals.speed()?);
         lines.extend(signals.tips()?);
+        let header = said.header_row.map(|row| format!("header_row = {row}"));
+        let skipped = (said.skip_rows > 0).then(|| format!("skip_rows = {}", said.skip_rows));
+        lines.extend(header.into_iter().chain(skipped).map(Line::said));
         if log.decimal_comma && log.format == Format::Text {
             lines.push(Line::taken(
                 "decimal = \",\"".to_owned(),
@@ -465,13 +483,12 @@ impl<'a> Signals<'a> {
     fn tips(&self) -> Result<Option<Line>, DraftError> {
         let mut tables = Vec::new();
         for choice in &self.said.tips {
-            let table = match OwnLog::of(choice, self.log)? {
-                Some(own) => own.table(Role::Tip, self.said.time.as_ref())?,
-                None => {
-                    let picked = self.named(choice)?;
-                    let name = [("name", quoted(&picked.channel.label()))];
-                    self.table(Role::Tip, &picked, &name)
-                }
+            let table = if let Some(own) = OwnLog::of(choice, self.log)? {
+                own.table(Role::Tip, self.said.time.as_ref())?
+            } else {
+                let picked = self.named(choice)?;
+                let name = [("name", quoted(&picked.channel.label()))];
+                self.table(Role::Tip, &picked, &name)
             };
             match table {
                 Ok((table, _)) => tables.push(table),

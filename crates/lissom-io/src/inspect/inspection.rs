@@ -4,7 +4,7 @@ use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 use lissom_core::identify::is_possible_sample_time;
-use lissom_formats::{Channel, Format, LogData};
+use lissom_formats::{Channel, Format, LogData, ReadOptions};
 
 use super::clock_facts::ClockFacts;
 use super::draft_error::DraftError;
@@ -44,7 +44,15 @@ pub struct Inspection {
 /// # Errors
 /// [`Error::Log`] if the file cannot be read, is of a format that is not read, or has no table of numbers.
 pub fn inspect(path: &Path) -> Result<Inspection, Error> {
-    let (data, groups) = first_of(path)?;
+    inspect_with(path, &ReadOptions::default())
+}
+
+/// Reads a log whose header, decimal sign or first row are stated, and describes it.
+///
+/// # Errors
+/// As [`inspect`].
+pub fn inspect_with(path: &Path, options: &ReadOptions) -> Result<Inspection, Error> {
+    let (data, groups) = first_of(path, options)?;
     let mut found = of_data(path, data);
     if groups.len() > 1 {
         let groups = groups.join(", ");
@@ -64,8 +72,8 @@ pub fn inspect(path: &Path) -> Result<Inspection, Error> {
 }
 
 /// The first log of those that a path fits, and the groups of all.
-fn first_of(path: &Path) -> Result<(LogData, Vec<String>), Error> {
-    let mut parts = LogPath::of(path).parts()?;
+fn first_of(path: &Path, options: &ReadOptions) -> Result<(LogData, Vec<String>), Error> {
+    let mut parts = LogPath::of(path).parts(options)?;
     let groups = parts.iter().map(|part| part.name.clone()).collect();
     Ok((Arc::unwrap_or_clone(parts.swap_remove(0).data), groups))
 }
@@ -160,9 +168,9 @@ impl Inspection {
     ///
     /// # Errors
     /// [`DraftError::OtherUnit`] with the first such channel; [`Error::Log`] if the other log cannot be read.
-    pub fn same_units(&self, other: &Path) -> Result<(), Error> {
+    pub fn same_units(&self, other: &Path, options: &ReadOptions) -> Result<(), Error> {
         let text = |unit: Option<StatedUnit>| unit.map(|u| u.text);
-        let (data, _) = first_of(other)?;
+        let (data, _) = first_of(other, options)?;
         for channel in self.channels.iter().filter(|c| !c.name.is_empty()) {
             let named = |c: &&Channel| bare_name(&c.name) == channel.name;
             let Some(same) = data.channels.iter().find(named) else { continue };

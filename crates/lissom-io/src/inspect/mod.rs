@@ -23,10 +23,11 @@ pub use clock_facts::ClockFacts;
 pub use draft::{CampaignDraft, Description};
 pub use draft_error::DraftError;
 pub use inspected_channel::InspectedChannel;
-pub use inspection::{Inspection, inspect};
+pub use inspection::{Inspection, inspect, inspect_with};
 pub use inspection_file::{
     ClockEntry, InspectedChannelEntry, InspectedLogEntry, InspectionFile, RoleEntry,
 };
+pub use lissom_formats::ReadOptions as TextOptions;
 pub use relations::Relation;
 pub use roles::{Guess, Role, Roles};
 pub use stated_unit::{StatedUnit, UnitSource};

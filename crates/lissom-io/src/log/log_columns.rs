@@ -3,6 +3,7 @@
 use std::fmt;
 
 use lissom_core::record::Hold;
+use lissom_formats::ReadOptions;
 
 /// A column of a log.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -38,11 +39,26 @@ pub struct LogOptions {
     pub max_rows: usize,
     /// Whether numbers have a decimal comma; cells are then separated by semicolons, tabs or blanks.
     pub decimal_comma: bool,
+    /// Row with the names of the columns, from 1; found if absent.
+    pub header_row: Option<usize>,
+    /// Rows at the top that do not count.
+    pub skip_rows: usize,
+}
+
+impl LogOptions {
+    /// The options of the reader of other formats.
+    pub(crate) fn of_text(&self) -> ReadOptions {
+        ReadOptions {
+            header_row: self.header_row,
+            skip_rows: self.skip_rows,
+            decimal_comma: self.decimal_comma.then_some(true),
+        }
+    }
 }
 
 impl Default for LogOptions {
     fn default() -> Self {
-        Self { max_rows: 1 << 22, decimal_comma: false }
+        Self { max_rows: 1 << 22, decimal_comma: false, header_row: None, skip_rows: 0 }
     }
 }
 

@@ -4,7 +4,7 @@ use std::collections::HashSet;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
-use lissom_formats::{Channel, LogData};
+use lissom_formats::{Channel, LogData, ReadOptions};
 
 use super::log_columns::ColumnRef;
 use super::log_error::LogError;
@@ -64,9 +64,9 @@ impl LogPath {
     ///
     /// # Errors
     /// [`LogError::NoGroup`] if no group fits; others if the file cannot be read.
-    pub fn parts(&self) -> Result<Vec<LogPart>, LogError> {
+    pub fn parts(&self, options: &ReadOptions) -> Result<Vec<LogPart>, LogError> {
         let file = self.file.display().to_string();
-        let data = lissom_formats::read(&self.file)
+        let data = lissom_formats::read_with(&self.file, options)
             .map_err(|error| LogError::of_format(file.clone(), error))?
             .with_time_stamps();
         let Some(group) = &self.group else {

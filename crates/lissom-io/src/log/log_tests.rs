@@ -317,7 +317,7 @@ fn a_broken_reader_is_reported_with_its_row() {
 proptest! {
     #[test]
     fn no_bytes_panic(bytes in proptest::collection::vec(any::<u8>(), 0..300)) {
-        let options = LogOptions { max_rows: 4, decimal_comma: true };
+        let options = LogOptions { max_rows: 4, decimal_comma: true, ..LogOptions::default() };
         let _ = read_with(&bytes, Some(&ColumnRef::Number(1)), &[ColumnRef::Number(2)], &options);
         let _ = read_with(&bytes, None, &[named("x")], &options);
     }
@@ -325,7 +325,7 @@ proptest! {
     #[test]
     fn no_lines_panic(lines in proptest::collection::vec("[-#%tx0-9.,;\t \"eµ]{0,12}", 0..12)) {
         let text = lines.join("\n");
-        let options = LogOptions { max_rows: 4, decimal_comma: true };
+        let options = LogOptions { max_rows: 4, decimal_comma: true, ..LogOptions::default() };
         let log = read_with(&text, Some(&ColumnRef::Number(1)), &[ColumnRef::Number(2)], &options);
         if let Ok(log) = log {
             let stamps = log.time.unwrap();

@@ -22,7 +22,7 @@ pub(super) fn read(
     first: Option<LogError>,
 ) -> Result<Log, LogError> {
     let file = path.display().to_string();
-    let (data, first) = match (lissom_formats::read(path), first) {
+    let (data, first) = match (lissom_formats::read_with(path, &options.of_text()), first) {
         (Ok(data), first) => (data.with_time_stamps(), first),
         // What is wrong with the text is known better from its first reading.
         (

@@ -25,7 +25,7 @@ pub fn read_log(
 ) -> Result<Log, LogError> {
     let at = LogPath::of(path);
     if let Some(group) = &at.group {
-        let Ok([part]) = <[LogPart; 1]>::try_from(at.parts()?) else {
+        let Ok([part]) = <[LogPart; 1]>::try_from(at.parts(&options.of_text())?) else {
             let (file, group) = (at.file.display().to_string(), group.clone());
             return Err(LogError::SeveralGroups { file, group });
         };
@@ -38,7 +38,8 @@ pub fn read_log(
             let begins = reader
                 .fill_buf()
                 .map_err(|source| LogError::Open { file: name.clone(), source })?;
-            if lissom_formats::is_no_plain_table(begins) {
+            let stated = options.header_row.is_some() || options.skip_rows > 0;
+            if stated || lissom_formats::is_no_plain_table(begins) {
                 return other_format::read(path, time, columns, options, None);
             }
             match read_log_from(reader, &name, time, columns, options) {

@@ -58,12 +58,12 @@ pub(super) fn offsets(reference: &EvenSignal, other: &EvenSignal, follows: Follo
 pub(super) fn period_s(reference: &EvenSignal, follows: Follows) -> Option<f64> {
     let motion = first_difference(&reference.values, 1);
     let signed = follows == Follows::Angle;
-    let alike = correlations(&[motion.clone()], &motion, signed);
+    let alike = correlations(std::slice::from_ref(&motion), &motion, signed);
     let half = &alike[..motion.len().min(alike.len() / 2)];
     // Beyond the peak at 0.
     let first = half.windows(2).position(|pair| pair[1] > pair[0])?;
     let peak = (first..half.len()).max_by(|a, b| half[*a].total_cmp(&half[*b]))?;
-    (half[peak].sqrt() > REPEATS_LEAST).then(|| peak as f64 * reference.step_s)
+    (half[peak].sqrt() > REPEATS_LEAST).then_some(peak as f64 * reference.step_s)
 }
 
 /// Share of the squares of `other` that the motions explain, for each lag of `other` in steps, circular; both ends are

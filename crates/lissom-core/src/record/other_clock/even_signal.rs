@@ -39,7 +39,7 @@ impl EvenSignal {
             sum += value;
             sums.push(sum);
         }
-        let ends = if rows % 2 == 0 { 0.5 } else { 0.0 };
+        let ends = if rows.is_multiple_of(2) { 0.5 } else { 0.0 };
         let mean = |k: usize| {
             let (first, last) = (k - half, k + half);
             let whole = sums[last + 1] - sums[first];

@@ -43,6 +43,8 @@ const REACH_S: (f64, f64) = (0.5, 1.0);
 const AROUND_S: [f64; 8] = [-0.16, -0.12, -0.08, -0.04, 0.04, 0.08, 0.12, 0.16];
 /// Offsets that are fitted in full.
 const FITTED: usize = 3;
+/// Most points of an even grid.
+const MOST_POINTS: f64 = 8e6;
 /// Fewest samples of a log.
 const LEAST: usize = 50;
 
@@ -116,10 +118,12 @@ pub struct StampedSignal<'a> {
 }
 
 impl StampedSignal<'_> {
-    fn median_step_s(&self) -> f64 {
+    /// The median step; longer if a gap would make the even grid too large.
+    fn step_s(&self) -> f64 {
         let mut steps: Vec<f64> = self.stamps_s.windows(2).map(|w| w[1] - w[0]).collect();
         let middle = steps.len() / 2;
-        *steps.select_nth_unstable_by(middle, f64::total_cmp).1
+        let median_s = *steps.select_nth_unstable_by(middle, f64::total_cmp).1;
+        median_s.max(self.length_s() / MOST_POINTS)
     }
 
     fn length_s(&self) -> f64 {
@@ -147,7 +151,7 @@ pub fn other_clock(
     if !(motor.has_motion() && other.has_motion()) {
         return Err(OtherClockError::NoSharedMotion { explained: 0.0 });
     }
-    let steps = (motor.median_step_s(), other.median_step_s());
+    let steps = (motor.step_s(), other.step_s());
     let length_s = motor.length_s().max(other.length_s());
     let block_s = steps.0.max(steps.1).max(block_s(length_s));
     let motion = EvenSignal::of(motor.stamps_s, motor.values, steps.0, block_s);
