@@ -1,6 +1,7 @@
 //! JSON: objects of arrays, arrays of records, and a record on each line.
 //!
-//! A path of keys joined by `/` names a channel. Lists of numbers inside a record are channels `name[0]`, `name[1]`, ...
+//! A path of keys joined by `/` names a channel. Lists of numbers inside a record are channels `name[0]`, `name[1]`, ...;
+//! records with long lists are groups of channels `runs[0]/t`, `runs[1]/t`, ...
 
 use std::collections::HashMap;
 
@@ -92,6 +93,11 @@ fn collect(path: &str, value: &Value, channels: &mut Vec<Channel>) {
                 collect(&joined(path, key), value, channels);
             }
         }
+        Value::Array(items) if items.iter().any(has_channels) => {
+            for (k, item) in items.iter().enumerate() {
+                collect(&format!("{path}[{k}]"), item, channels);
+            }
+        }
         Value::Array(items) if items.iter().any(Value::is_object) => {
             channels.extend(of_records(path, items));
         }
@@ -103,6 +109,14 @@ fn collect(path: &str, value: &Value, channels: &mut Vec<Channel>) {
         }
         _ => {}
     }
+}
+
+/// Whether a record is a group of channels, and not a row: it has a long list of numbers.
+fn has_channels(record: &Value) -> bool {
+    let is_long = |value: &Value| {
+        value.as_array().is_some_and(|a| a.len() > MOST_ITEMS && a.iter().any(Value::is_number))
+    };
+    record.as_object().is_some_and(|map| map.values().any(is_long))
 }
 
 /// Arrays in an array: each a row of a table, or each a channel if they are long and few.

@@ -245,3 +245,22 @@ fn a_stated_header_row_has_the_names() {
     let found = read("t;q\n0;1\n1;2\n2;3\n".to_owned(), comma).unwrap();
     assert_eq!(found.channels[1].values, [1.0, 2.0, 3.0]);
 }
+
+#[test]
+fn records_with_long_lists_are_groups() {
+    let list = |from: u32| (from..from + 100).map(|k| k.to_string()).collect::<Vec<_>>().join(",");
+    let text = format!(
+        "{{\"runs\":[{{\"name\":\"a\",\"t\":[{}],\"q\":[{}]}},{{\"t\":[{}],\"q\":[{}]}}]}}",
+        list(0),
+        list(5),
+        list(0),
+        list(9)
+    );
+    let data = lissom_formats::read_bytes(text.into_bytes()).unwrap();
+    let groups = data.groups("runs[*]");
+    assert_eq!(groups.len(), 2);
+    assert_eq!(groups[1].0, "runs[1]");
+    assert_eq!(groups[1].1.channels.len(), 2);
+    let q = groups[1].1.channels.iter().find(|c| c.name == "q").unwrap();
+    assert!((q.values[2] - 11.0).abs() < 1e-12);
+}

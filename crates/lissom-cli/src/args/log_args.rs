@@ -15,10 +15,10 @@ pub(crate) struct LogArgs {
     /// Sample time of logs without time stamps, e.g. "1 ms"
     #[arg(long, value_name = "TIME", value_parser = time_text)]
     sample_time: Option<String>,
-    /// Column with the number of the run or trial, if a log has several runs
+    /// Column with the number of the run, if a log has several
     #[arg(long, value_name = "COLUMN")]
     run: Option<String>,
-    /// Row of a text with the names of the columns, from 1 [default: found]
+    /// Row of a text with the names, from 1 [default: found]
     #[arg(long, value_name = "ROW", value_parser = row)]
     header_row: Option<usize>,
     /// Rows at the top of a text that do not count
@@ -45,7 +45,7 @@ pub(crate) struct LogArgs {
     /// Speed of the motor, to be compared with its angle
     #[arg(long, value_name = "COLUMN:UNIT", value_parser = choice)]
     speed: Option<Choice>,
-    /// A point of the arm; several times for several
+    /// A point of the arm (repeatable); FILE::COLUMN in another log
     #[arg(long, value_name = "COLUMN:UNIT", value_parser = choice)]
     tip: Vec<Choice>,
     /// Torque constant, e.g. "0.1 N*m/A"

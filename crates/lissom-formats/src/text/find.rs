@@ -1,14 +1,13 @@
 //! Finds the table of numbers in a text: the first long block of rows with the same number of cells.
 
 use super::cells::{Cell, Decimal, Separator};
+use super::lines::{MANY_COLUMNS, is_skipped};
 use super::table::Table;
 
 /// A block of so many rows is a table; a shorter one only if there is no other.
 const LONG: usize = 8;
 /// Rows at the beginning of a block whose longest gives its width.
 const FIRST_ROWS: usize = 100;
-/// A table with at least so many columns may have one row for each signal.
-pub(super) const MANY_COLUMNS: usize = 50;
 
 /// Finds the table below the first `skipped` lines, with a decimal comma or without one if that is stated.
 pub(crate) fn find(text: &str, skipped: usize, decimal_comma: Option<bool>) -> Option<Table<'_>> {
@@ -141,12 +140,6 @@ fn block(lines: &[&str], skipped: usize, separator: Separator, decimal: Decimal)
         }
     }
     best
-}
-
-/// Whether a line belongs to no table: it is blank or a comment.
-pub(super) fn is_skipped(line: &str) -> bool {
-    let line = line.trim_start();
-    line.is_empty() || line.starts_with(['#', '%'])
 }
 
 /// A row of numbers.

@@ -4,7 +4,7 @@ use std::collections::HashMap;
 
 use super::cells::{Decimal, Separator};
 use super::column::{self, Column};
-use super::find::is_skipped;
+use super::lines::is_skipped;
 use crate::collected::{Collected, LeftOut};
 use crate::format::Format;
 use crate::format_error::FormatError;

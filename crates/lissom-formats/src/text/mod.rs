@@ -7,6 +7,7 @@ mod decode;
 mod find;
 mod header;
 mod labview;
+mod lines;
 mod long_table;
 mod preamble;
 mod stamp_pairs;

@@ -2,8 +2,8 @@
 
 use super::cells::{Cell, Decimal, Separator};
 use super::column::Column;
-use super::find::{MANY_COLUMNS, is_skipped};
 use super::header::Header;
+use super::lines::{MANY_COLUMNS, is_skipped};
 use super::preamble::Preamble;
 use super::stamp_pairs;
 use crate::format::Format;

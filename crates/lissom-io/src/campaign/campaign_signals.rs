@@ -4,7 +4,6 @@ use lissom_core::record::{Axis, CommandQuantity, Hold, Tip, TipQuantity};
 
 use super::campaign_error::CampaignError;
 use super::campaign_file::ReadOptions;
-use super::own_logs::OwnLog;
 use crate::config::{ConfigError, Rule, Table, Value};
 use crate::io_error::Error;
 use crate::log::{ColumnRef, LogOptions};
@@ -51,6 +50,16 @@ pub(super) enum TimeSource {
     Stamps(ColumnRef, f64),
     /// A sample time [s].
     Steps(f64),
+}
+
+/// The log of a signal that is not in the log of its run.
+pub(super) struct OwnLog {
+    /// The file, in which `{run}` may stand for the name of the run's log.
+    pub(super) file: String,
+    /// Its time, if it is not as in the log of the run.
+    pub(super) time: Option<TimeSource>,
+    /// Whether both logs have the same clock.
+    pub(super) shared_clock: bool,
 }
 
 pub(super) struct CommandSource {

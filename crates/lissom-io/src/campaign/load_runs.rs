@@ -1,7 +1,6 @@
 //! Reads logs into runs.
 
 use std::collections::HashMap;
-use std::f64::consts::{PI, TAU};
 use std::path::Path;
 
 use lissom_core::record::clock::{self, ClockError, EvenLog, LogRows};
@@ -12,7 +11,8 @@ use rayon::prelude::*;
 
 use super::campaign_error::CampaignError;
 use super::campaign_file::ReadOptions;
-use super::campaign_signals::{CommandKind, Reading, Signals, TimeSource, TipSource};
+use super::campaign_signals::{CommandKind, Signals, TimeSource, TipSource};
+use super::conversions::{camera_angle, in_si};
 use super::derived_channels::{goal_difference, integrated};
 use super::own_logs::{RunLog, RunSignals};
 use super::run_spec::RunSpec;
@@ -318,32 +318,4 @@ fn channels(columns: Vec<Vec<f64>>, signals: &Signals) -> (Vec<f64>, Vec<f64>, V
         });
     }
     (command, motor, tips)
-}
-
-pub(super) fn in_si(mut column: Vec<f64>, reading: &Reading) -> Vec<f64> {
-    for value in &mut column {
-        *value = *value * reading.gain + reading.offset;
-    }
-    column
-}
-
-/// Angle of the radius from the origin to a point, unwrapped at ±π.
-pub(super) fn camera_angle(x: &[f64], y: &[f64], origin: [f64; 2], scale: f64) -> Vec<f64> {
-    let mut turns = 0.0;
-    let mut last: Option<f64> = None;
-    x.iter()
-        .zip(y)
-        .map(|(x, y)| {
-            let angle = (y - origin[1]).atan2(x - origin[0]);
-            if let Some(last) = last {
-                if angle - last > PI {
-                    turns -= TAU;
-                } else if angle - last < -PI {
-                    turns += TAU;
-                }
-            }
-            last = Some(angle);
-            scale * (angle + turns)
-        })
-        .collect()
 }

@@ -55,6 +55,7 @@ mod campaign_load;
 mod campaign_signals;
 #[cfg(test)]
 mod campaign_tests;
+mod conversions;
 mod derived_channels;
 mod load_runs;
 mod own_logs;

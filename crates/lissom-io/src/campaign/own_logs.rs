@@ -7,8 +7,8 @@ use lissom_core::record::other_clock::{
 };
 use lissom_core::record::{Axis, Hold, Note, TipQuantity};
 
-use super::campaign_signals::{Signals, TimeSource, TipSource};
-use super::load_runs::{camera_angle, in_si};
+use super::campaign_signals::{OwnLog, Signals, TimeSource, TipSource};
+use super::conversions::{camera_angle, in_si};
 use super::run_spec::RunSpec;
 use super::whole_turns;
 use crate::io_error::Error;
@@ -18,16 +18,6 @@ use crate::log::{self, ColumnRef, LogColumn, LogError, LogOptions, Series};
 const RUN: &str = "{run}";
 /// A gap of more steps than this is not interpolated.
 const GAP_STEPS: f64 = 4.5;
-
-/// The log of a signal that is not in the log of its run.
-pub(super) struct OwnLog {
-    /// The file, in which `{run}` may stand for the name of the run's log.
-    pub(super) file: String,
-    /// Its time, if it is not as in the log of the run.
-    pub(super) time: Option<TimeSource>,
-    /// Whether both logs have the same clock.
-    pub(super) shared_clock: bool,
-}
 
 /// The log of a run, while signals of other logs are added to it.
 pub(super) struct RunLog<'a> {

@@ -6,15 +6,15 @@ use std::path::{Path, PathBuf};
 use lissom_formats::{Format, ReadOptions};
 
 use super::draft_error::DraftError;
-use super::inspected_channel::InspectedChannel;
 use super::inspection::Inspection;
 use super::own_log::OwnLog;
+use super::picks::{Picked, Picks};
 use super::relations::Relation;
 use super::roles::Role;
 use super::stated_unit::UnitSource;
 use super::user_choice::{Choice, CommandKey, quoted};
 use super::words::{commanded, words};
-use crate::log::{LogPath, bare_name};
+use crate::log::LogPath;
 use crate::units::{Dimension, parse_any_unit};
 
 /// What a user says about logs. What is absent is taken from the log where it is unambiguous.
@@ -106,7 +106,7 @@ impl CampaignDraft {
         files: &[PathBuf],
         said: &Description,
     ) -> Result<Self, DraftError> {
-        let signals = Signals { log, said };
+        let signals = Signals { log, picks: Picks { log }, said };
         let mut lines = vec![Line::said("[signals]".to_owned()), signals.time()?];
         lines.extend(signals.run()?);
         lines.push(signals.command()?);
@@ -206,121 +206,16 @@ fn toml_value(value: &str) -> String {
 }
 
 /// Makes the lines of `[signals]`.
-pub(super) struct Signals<'a> {
-    pub(super) log: &'a Inspection,
-    pub(super) said: &'a Description,
+struct Signals<'a> {
+    log: &'a Inspection,
+    picks: Picks<'a>,
+    said: &'a Description,
 }
 
-/// A channel for a role: which, why, and what the user says about it.
-pub(super) struct Picked<'a> {
-    pub(super) channel: &'a InspectedChannel,
-    why: Option<String>,
-    choice: Option<&'a Choice>,
-}
-
-impl<'a> Signals<'a> {
-    fn file(&self) -> String {
-        self.log.file.display().to_string()
-    }
-
-    fn names(&self) -> Vec<String> {
-        self.log.channels.iter().map(InspectedChannel::label).collect()
-    }
-
-    /// The channel that the user names.
-    pub(super) fn named(&self, choice: &'a Choice) -> Result<Picked<'a>, DraftError> {
-        let wanted = choice.column.as_str();
-        let channels = &self.log.channels;
-        let by = |fits: &dyn Fn(&str) -> bool| {
-            let mut found = channels.iter().filter(|c| fits(&c.name));
-            found.next().filter(|_| found.next().is_none())
-        };
-        let number = || wanted.parse::<usize>().ok().and_then(|n| channels.get(n.checked_sub(1)?));
-        let bare = bare_name(wanted);
-        let channel = by(&|name| name == bare)
-            .or_else(|| by(&|name| name.rsplit('/').next() == Some(wanted)))
-            .or_else(|| by(&|name| without_unit(name) == wanted))
-            .or_else(number);
-        let Some(channel) = channel else {
-            let (file, column, names) = (self.file(), wanted.to_owned(), self.names());
-            return Err(DraftError::NoChannel { file, column, names });
-        };
-        Ok(Picked { channel, why: None, choice: Some(choice) })
-    }
-
-    /// The channel for a role: the one that the user names, or the one that is guessed.
-    pub(super) fn pick(
-        &self,
-        role: Role,
-        said: Option<&'a Choice>,
-    ) -> Result<Result<Picked<'a>, DraftError>, DraftError> {
-        if let Some(choice) = said {
-            return self.named(choice).map(Ok);
-        }
-        let labels = |all: &[usize]| all.iter().map(|k| self.log.channels[*k].label()).collect();
-        Ok(match (self.log.roles.of(role), self.log.roles.several(role)) {
-            (Some(guess), _) => Ok(Picked {
-                channel: &self.log.channels[guess.channel],
-                why: Some(guess.why.clone()),
-                choice: None,
-            }),
-            (None, Some(all)) => {
-                Err(DraftError::Several { file: self.file(), role, names: labels(all) })
-            }
-            (None, None) => {
-                Err(DraftError::NoRole { file: self.file(), role, names: self.names() })
-            }
-        })
-    }
-
-    /// A table `{ column = …, unit = … }` with further keys.
-    pub(super) fn table(
-        &self,
-        role: Role,
-        picked: &Picked<'_>,
-        more: &[(&str, String)],
-    ) -> Result<(String, String), DraftError> {
-        let channel = picked.channel;
-        let said = picked.choice.and_then(|c| c.unit.clone());
-        let stated = channel.unit.as_ref().filter(|u| u.known.is_some());
-        let Some(unit) = said.or_else(|| stated.map(|u| u.text.clone())) else {
-            let stated = channel.unit.as_ref().map(|u| u.text.clone());
-            let (file, name) = (self.file(), self.spelled(channel));
-            return Err(DraftError::NoUnit { file, role, name, stated });
-        };
-        let mut table = format!("{{ column = {}, unit = {}", self.column(channel), quoted(&unit));
-        let keys = picked.choice.iter().flat_map(|c| &c.keys);
-        let said: Vec<&str> = keys.clone().map(|(key, _)| key.as_str()).collect();
-        let more = more.iter().filter(|(key, _)| !said.contains(key));
-        for (key, value) in more.map(|(k, v)| (*k, v)).chain(keys.map(|(k, v)| (k.as_str(), v))) {
-            let _ = write!(table, ", {key} = {value}");
-        }
-        table.push_str(" }");
-        Ok((table, unit))
-    }
-
-    /// A column as a `campaign.toml` names it: by its name if it is the only one with it.
-    fn column(&self, channel: &InspectedChannel) -> String {
-        let same = self.log.channels.iter().filter(|c| c.name == channel.name).count();
-        if channel.name.is_empty() || same > 1 {
-            channel.number.to_string()
-        } else {
-            quoted(&channel.name)
-        }
-    }
-
-    /// A channel as an option names it.
-    fn spelled(&self, channel: &InspectedChannel) -> String {
-        if self.column(channel) == channel.number.to_string() {
-            channel.number.to_string()
-        } else {
-            channel.name.clone()
-        }
-    }
-
+impl Signals<'_> {
     /// The line for a channel, or what is missing.
     fn line(&self, key: &str, role: Role, picked: &Picked<'_>, more: &[(&str, String)]) -> Line {
-        match self.table(role, picked, more) {
+        match self.picks.table(role, picked, more) {
             Ok((table, unit)) => {
                 let text = format!("{key} = {table}");
                 let unit_from = picked.channel.unit.as_ref().map(|u| u.source);
@@ -339,7 +234,7 @@ impl<'a> Signals<'a> {
                 if why.is_empty() { Line::said(text) } else { Line::taken(text, why) }
             }
             Err(error) => {
-                let column = self.column(picked.channel);
+                let column = self.picks.column(picked.channel);
                 Line::missing(&format!("{key} = {{ column = {column}, unit = \"?\" }}"), error)
             }
         }
@@ -349,7 +244,7 @@ impl<'a> Signals<'a> {
         if let Some(sample_time) = &self.said.sample_time {
             return Ok(Line::said(format!("sample_time = {}", quoted(sample_time))));
         }
-        Ok(match self.pick(Role::Time, self.said.time.as_ref())? {
+        Ok(match self.picks.pick(Role::Time, self.said.time.as_ref())? {
             Ok(picked) => self.line("time", Role::Time, &picked, &[]),
             Err(error) => Line::missing("time = { column = \"?\", unit = \"s\" }", error),
         })
@@ -358,8 +253,8 @@ impl<'a> Signals<'a> {
     fn run(&self) -> Result<Option<Line>, DraftError> {
         let Some(column) = &self.said.run else { return Ok(None) };
         let choice = Choice { column: column.clone(), unit: None, keys: Vec::new() };
-        let channel = self.named(&choice)?.channel;
-        Ok(Some(Line::said(format!("run = {}", self.column(channel)))))
+        let channel = self.picks.named(&choice)?.channel;
+        Ok(Some(Line::said(format!("run = {}", self.picks.column(channel)))))
     }
 
     fn command(&self) -> Result<Line, DraftError> {
@@ -369,7 +264,7 @@ impl<'a> Signals<'a> {
                 CommandKey::Voltage => Role::Voltage,
                 CommandKey::Command => Role::Torque,
             };
-            (*key, role, Ok(self.named(choice)?))
+            (*key, role, Ok(self.picks.named(choice)?))
         } else {
             let roles = [
                 (CommandKey::Current, Role::Current),
@@ -380,7 +275,7 @@ impl<'a> Signals<'a> {
                 self.log.roles.of(*role).is_some() || self.log.roles.several(*role).is_some()
             };
             let (key, role) = roles.into_iter().find(|(_, role)| known(role)).unwrap_or(roles[0]);
-            (key, role, self.pick(role, None)?)
+            (key, role, self.picks.pick(role, None)?)
         };
         Ok(match picked {
             Ok(picked) => {
@@ -433,9 +328,9 @@ impl<'a> Signals<'a> {
                 Err(error) => Line::missing("motor = { column = \"?\" }", error),
             });
         }
-        let mut picked = self.pick(Role::Motor, self.said.motor.as_ref())?;
+        let mut picked = self.picks.pick(Role::Motor, self.said.motor.as_ref())?;
         if matches!(picked, Err(DraftError::NoRole { .. }))
-            && let Ok(speed) = self.pick(Role::Speed, None)?
+            && let Ok(speed) = self.picks.pick(Role::Speed, None)?
         {
             picked = Ok(speed);
         }
@@ -457,7 +352,7 @@ impl<'a> Signals<'a> {
 
     fn speed(&self) -> Result<Option<Line>, DraftError> {
         if let Some(choice) = &self.said.speed {
-            return Ok(Some(self.line("speed", Role::Speed, &self.named(choice)?, &[])));
+            return Ok(Some(self.line("speed", Role::Speed, &self.picks.named(choice)?, &[])));
         }
         // A channel that is the rate of the motor's checks its unit and that of the time stamps.
         if let Some(choice) = &self.said.motor
@@ -465,7 +360,9 @@ impl<'a> Signals<'a> {
         {
             return Ok(None);
         }
-        let Ok(motor) = self.pick(Role::Motor, self.said.motor.as_ref())? else { return Ok(None) };
+        let Ok(motor) = self.picks.pick(Role::Motor, self.said.motor.as_ref())? else {
+            return Ok(None);
+        };
         let Some(guess) = self.log.roles.of(Role::Speed) else { return Ok(None) };
         let channel = &self.log.channels[guess.channel];
         let rate_of = match channel.relation {
@@ -486,9 +383,9 @@ impl<'a> Signals<'a> {
             let table = if let Some(own) = OwnLog::of(choice, self.log)? {
                 own.table(Role::Tip, self.said.time.as_ref())?
             } else {
-                let picked = self.named(choice)?;
+                let picked = self.picks.named(choice)?;
                 let name = [("name", quoted(&picked.channel.label()))];
-                self.table(Role::Tip, &picked, &name)
+                self.picks.table(Role::Tip, &picked, &name)
             };
             match table {
                 Ok((table, _)) => tables.push(table),
@@ -498,10 +395,4 @@ impl<'a> Signals<'a> {
         let text = format!("tips = [{}]", tables.join(", "));
         Ok((!tables.is_empty()).then(|| Line::said(text)))
     }
-}
-
-/// A name without the unit in brackets at its end.
-fn without_unit(name: &str) -> &str {
-    let end = name.rfind(['[', '(']).filter(|at| *at > 0).unwrap_or(name.len());
-    name[..end].trim_end()
 }

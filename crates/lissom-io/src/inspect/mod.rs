@@ -12,6 +12,7 @@ mod inspected_channel;
 mod inspection;
 mod inspection_file;
 mod own_log;
+mod picks;
 mod relations;
 mod roles;
 mod stated_unit;

@@ -2,9 +2,9 @@
 
 use std::path::Path;
 
-use super::draft::{Description, Signals};
 use super::draft_error::DraftError;
 use super::inspection::{Inspection, inspect};
+use super::picks::Picks;
 use super::roles::Role;
 use super::user_choice::{Choice, quoted};
 use crate::log::LogPath;
@@ -58,22 +58,21 @@ impl OwnLog {
         role: Role,
         time: Option<&Choice>,
     ) -> Result<Result<(String, String), DraftError>, DraftError> {
-        let said = Description::default();
-        let signals = Signals { log: &self.log, said: &said };
-        let time = time.filter(|choice| signals.named(choice).is_ok());
-        let time = match signals.pick(Role::Time, self.time.as_ref().or(time))? {
-            Ok(picked) => match signals.table(Role::Time, &picked, &[]) {
+        let picks = Picks { log: &self.log };
+        let time = time.filter(|choice| picks.named(choice).is_ok());
+        let time = match picks.pick(Role::Time, self.time.as_ref().or(time))? {
+            Ok(picked) => match picks.table(Role::Time, &picked, &[]) {
                 Ok((table, _)) => table,
                 Err(error) => return Ok(Err(error)),
             },
             Err(error) => return Ok(Err(error)),
         };
-        let picked = signals.named(&self.choice)?;
+        let picked = picks.named(&self.choice)?;
         let mut more = vec![("file", quoted(&self.file)), ("time", time)];
         if role == Role::Tip {
             more.insert(0, ("name", quoted(&picked.channel.label())));
         }
         more.extend(self.clock.as_ref().map(|clock| ("clock", quoted(clock))));
-        Ok(signals.table(role, &picked, &more))
+        Ok(picks.table(role, &picked, &more))
     }
 }

@@ -1,11 +1,11 @@
 //! Where a log is: a file, or a group of channels in a file, written `FILE::GROUP`.
 
-use std::collections::HashSet;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
-use lissom_formats::{Channel, LogData, ReadOptions};
+use lissom_formats::{LogData, ReadOptions};
 
+use super::groups::groups;
 use super::log_columns::ColumnRef;
 use super::log_error::LogError;
 use super::other_format::place;
@@ -117,27 +117,4 @@ impl LogPart {
         };
         Ok(found.into_iter().map(part).collect())
     }
-}
-
-/// The groups at the beginnings, if two of them have a channel of the same name: they may be runs.
-pub(crate) fn alike_groups(data: &LogData) -> Option<Vec<String>> {
-    let mut names = HashSet::new();
-    let within =
-        |c: &'_ Channel| c.name.trim_start_matches('/').split_once('/').map(|(_, n)| n.to_owned());
-    let twice = data.channels.iter().filter_map(within).any(|name| !names.insert(name));
-    twice.then(|| groups(data))
-}
-
-/// The groups at the beginnings of the paths of channels.
-pub(crate) fn groups(data: &LogData) -> Vec<String> {
-    let mut found: Vec<String> = Vec::new();
-    for channel in &data.channels {
-        if let Some((group, _)) = channel.name.trim_start_matches('/').split_once('/')
-            && found.last().is_none_or(|last| last != group)
-            && !found.iter().any(|known| known == group)
-        {
-            found.push(group.to_owned());
-        }
-    }
-    found
 }

@@ -17,6 +17,7 @@
 //! A row with the same stamp and the same values as the row above is skipped. Time that goes back is reported with the
 //! log ([`Log::time_back`]). Two rows with the same stamp and different values are an error.
 
+mod groups;
 mod log_body;
 mod log_columns;
 mod log_error;
@@ -32,10 +33,10 @@ mod plain_log;
 mod read_log;
 mod thinner;
 
+pub(crate) use groups::alike_groups;
 pub use log_columns::{ColumnRef, Log, LogColumn, LogOptions, TimeBack};
 pub use log_error::LogError;
 pub(crate) use log_layout::{Delimiter, comment, is_header, number};
-pub(crate) use log_path::alike_groups;
 pub use log_path::{LogPart, LogPath};
 pub(crate) use one_clock::Series;
 pub(crate) use other_format::bare_name;

@@ -5,10 +5,10 @@ use std::path::Path;
 use lissom_core::record::Hold;
 use lissom_formats::{Channel, Clock, Format, FormatError, LogData};
 
+use super::groups::groups;
 use super::log_body::Body;
 use super::log_columns::{ColumnRef, Log, LogColumn, LogOptions};
 use super::log_error::LogError;
-use super::log_path::groups;
 use super::one_clock::{Series, on_one_clock};
 use crate::nearest::nearest;
 

@@ -1,0 +1,10 @@
+//! Lines of a text that are rows of a table, and those that are not.
+
+/// A table with at least so many columns may have one row for each signal.
+pub(super) const MANY_COLUMNS: usize = 50;
+
+/// Whether a line belongs to no table: it is blank or a comment.
+pub(super) fn is_skipped(line: &str) -> bool {
+    let line = line.trim_start();
+    line.is_empty() || line.starts_with(['#', '%'])
+}
