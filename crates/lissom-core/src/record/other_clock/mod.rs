@@ -29,7 +29,9 @@ use thiserror::Error;
 use even_signal::EvenSignal;
 use fit::{Effort, Fit, fit};
 use regressors::Regressors;
-use thresholds::{DRIFT_SHOWS, MODEL_SHIFT_S, REPEATS, SHARED_GAIN, SHARED_LEAST};
+use thresholds::{
+    DRIFT_SHOWS, MODEL_SHIFT_S, REPEATS, SHARED_GAIN, SHARED_LEAST, VIBRATION_SHIFT_S,
+};
 
 /// Shortest and usual longest block over which signals are averaged \[s\].
 const BLOCK_S: (f64, f64) = (0.01, 0.02);
@@ -78,12 +80,16 @@ impl OtherClock {
         self.middle_s + self.offset_s + (1.0 + self.drift) * (time_s - self.middle_s)
     }
 
-    fn of(found: &Fit) -> Self {
-        let drift_std = found.drift_std.hypot(2.0 * MODEL_SHIFT_S / found.length_s);
+    fn of(found: &Fit, follows: Follows) -> Self {
+        let shift_s = match follows {
+            Follows::Acceleration => VIBRATION_SHIFT_S,
+            Follows::Angle | Follows::Torque => MODEL_SHIFT_S,
+        };
+        let drift_std = found.drift_std.hypot(2.0 * shift_s / found.length_s);
         let drifts = found.drift.abs() > DRIFT_SHOWS * drift_std;
         Self {
             offset_s: found.offset_s + found.drift * found.middle_s,
-            offset_std_s: found.offset_std_s.hypot(MODEL_SHIFT_S),
+            offset_std_s: found.offset_std_s.hypot(shift_s),
             drift: if drifts { found.drift } else { 0.0 },
             drift_std,
             middle_s: found.middle_s,
@@ -206,7 +212,7 @@ pub fn other_clock(
         .map(|f| (f.offset_s - best.offset_s).abs())
         .filter(|distance_s| *distance_s > 3.0 * step_s)
         .min_by(f64::total_cmp);
-    Ok(OtherClock { repeats_s, ..OtherClock::of(best) })
+    Ok(OtherClock { repeats_s, ..OtherClock::of(best, follows) })
 }
 
 /// Length of the blocks of a log \[s\].

@@ -10,8 +10,11 @@ thresholds! {
         /// most 0.11 in those without a shared motion.
         SHARED_LEAST: f64 = 0.2, "1", Measured;
         /// Error of the models, which is part of the standard error of each offset: damping of the arm, or friction that
-        /// is not that of Coulomb, looks like a shift in time. It is 0.3 ms (rms) in 24 simulated logs.
+        /// is not that of Coulomb, looks like a shift in time. It is 0.3 ms (rms) for angles and currents in 27 simulated
+        /// logs.
         MODEL_SHIFT_S: f64 = 3e-4, "s", Measured;
+        /// The same for a deflection or an acceleration, in which vibrations are larger: 0.6 ms (rms) in 10 simulated logs.
+        VIBRATION_SHIFT_S: f64 = 6e-4, "s", Measured;
         /// The drift of a clock is used if it is this many standard errors from zero.
         DRIFT_SHOWS: f64 = 3.0, "standard errors", Convention;
         /// Another offset fits as well if the variance that it leaves unexplained is less than this factor times that of
