@@ -52,6 +52,16 @@ pub(super) enum TimeSource {
     Steps(f64),
 }
 
+impl TimeSource {
+    /// The column of the stamps.
+    pub(super) fn column(&self) -> Option<&ColumnRef> {
+        match self {
+            Self::Stamps(column, _) => Some(column),
+            Self::Steps(_) => None,
+        }
+    }
+}
+
 /// The log of a signal that is not in the log of its run.
 pub(super) struct OwnLog {
     /// The file, in which `{run}` may stand for the name of the run's log.

@@ -2,7 +2,40 @@
 
 use std::f64::consts::{PI, TAU};
 
-use super::campaign_signals::Reading;
+use super::campaign_signals::{Reading, TimeSource};
+use crate::config::MAGNITUDE;
+use crate::log::{Log, LogError};
+
+/// Largest magnitude of a sample in SI.
+const LARGEST: f64 = MAGNITUDE.1;
+
+/// The times of the samples of a log \[s\]: its stamps, or multiples of the sample time.
+pub(super) fn stamps_s(source: &TimeSource, log: &mut Log) -> Vec<f64> {
+    match source {
+        TimeSource::Stamps(_, unit_s) => {
+            let stamps = log.time.take().unwrap_or_default();
+            stamps.into_iter().map(|stamp| stamp * unit_s).collect()
+        }
+        TimeSource::Steps(sample_time_s) => {
+            let step_s = sample_time_s * log.factor as f64;
+            let samples = log.columns.first().map_or(0, Vec::len);
+            (0..samples).map(|k| k as f64 * step_s).collect()
+        }
+    }
+}
+
+/// Refuses samples that are too large.
+pub(super) fn channel_in_range(channel: &str, samples: &[f64], file: &str) -> Result<(), LogError> {
+    match samples.iter().position(|v| !v.is_finite() || v.abs() > LARGEST) {
+        None => Ok(()),
+        Some(k) => Err(LogError::OutOfRange {
+            file: file.to_owned(),
+            channel: channel.to_owned(),
+            sample: k + 1,
+            largest: LARGEST,
+        }),
+    }
+}
 
 /// A column in SI.
 pub(super) fn in_si(mut column: Vec<f64>, reading: &Reading) -> Vec<f64> {

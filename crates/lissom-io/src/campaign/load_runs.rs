@@ -12,19 +12,15 @@ use rayon::prelude::*;
 use super::campaign_error::CampaignError;
 use super::campaign_file::ReadOptions;
 use super::campaign_signals::{CommandKind, Signals, TimeSource, TipSource};
-use super::conversions::{camera_angle, in_si};
+use super::conversions::{camera_angle, channel_in_range, in_si, stamps_s};
 use super::derived_channels::{goal_difference, integrated};
 use super::own_logs::{RunLog, RunSignals};
 use super::run_spec::RunSpec;
 use super::several_runs;
 use super::speed_check::{self, Contradiction};
 use super::whole_turns;
-use crate::config::MAGNITUDE;
 use crate::io_error::Error;
 use crate::log::{self, ColumnRef, Log, LogColumn, LogError, LogOptions, TimeBack};
-
-/// Largest magnitude of a sample in SI.
-const LARGEST: f64 = MAGNITUDE.1;
 
 /// Reads all runs, several at the same time. The error is that of the first run with an error.
 pub(super) fn load(
@@ -68,10 +64,7 @@ fn load_run(
     let path = folder.join(&spec.file);
     let file = spec.part.as_ref().map_or_else(|| path.display().to_string(), |p| p.label.clone());
     let log_options = signals.log_options(options);
-    let time = match &signals.time {
-        TimeSource::Stamps(column, _) => Some(column),
-        TimeSource::Steps(_) => None,
-    };
+    let time = signals.time.column();
     let log = match &spec.part {
         Some(part) => log::read_part(part, time, &columns(signals), &log_options)?,
         None => log::read_log(&path, time, &columns(signals), &log_options)?,
@@ -144,18 +137,6 @@ fn in_range(
     all.try_for_each(|(channel, samples)| channel_in_range(channel, samples, file))
 }
 
-fn channel_in_range(channel: &str, samples: &[f64], file: &str) -> Result<(), LogError> {
-    match samples.iter().position(|v| !v.is_finite() || v.abs() > LARGEST) {
-        None => Ok(()),
-        Some(k) => Err(LogError::OutOfRange {
-            file: file.to_owned(),
-            channel: channel.to_owned(),
-            sample: k + 1,
-            largest: LARGEST,
-        }),
-    }
-}
-
 /// Turns an error of a run into an error of its log.
 fn of_log(error: RecordError, file: &str) -> Error {
     let file = file.to_owned();
@@ -193,26 +174,17 @@ fn columns(signals: &Signals) -> Vec<LogColumn> {
 
 /// Turns a log into runs with even samples. Also returns the number of turns removed, and notes on signals of other logs.
 fn even_parts(
-    log: Log,
+    mut log: Log,
     signals: &Signals,
     (folder, spec): (&Path, &RunSpec),
     options: &ReadOptions,
     file: &str,
 ) -> Result<(EvenLog, usize, Vec<Note>), Error> {
-    let (stamps_s, sample_time_s, stamp_step_s) = match (&signals.time, log.time) {
-        (TimeSource::Stamps(_, unit_s), Some(mut stamps)) => {
-            for stamp in &mut stamps {
-                *stamp *= unit_s;
-            }
-            channel_in_range("time", &stamps, file)?;
-            (stamps, None, log.time_step * unit_s)
-        }
-        (TimeSource::Steps(sample_time_s), _) => {
-            let step_s = sample_time_s * log.factor as f64;
-            let samples = log.columns.first().map_or(0, Vec::len);
-            ((0..samples).map(|k| k as f64 * step_s).collect(), Some(step_s), 0.0)
-        }
-        (TimeSource::Stamps(..), None) => (Vec::new(), None, 0.0),
+    let stamps_s = stamps_s(&signals.time, &mut log);
+    channel_in_range("time", &stamps_s, file)?;
+    let (sample_time_s, stamp_step_s) = match &signals.time {
+        TimeSource::Stamps(_, unit_s) => (None, log.time_step * unit_s),
+        TimeSource::Steps(step_s) => (Some(step_s * log.factor as f64), 0.0),
     };
     let mut columns = log.columns;
     let speed = signals.speed.as_ref().map(|of| in_si(columns.pop().unwrap_or_default(), of));

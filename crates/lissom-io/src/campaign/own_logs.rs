@@ -7,15 +7,13 @@ use lissom_core::record::other_clock::{
 };
 use lissom_core::record::{Axis, Hold, Note, TipQuantity};
 
-use super::campaign_signals::{OwnLog, Signals, TimeSource, TipSource};
-use super::conversions::{camera_angle, in_si};
+use super::campaign_signals::{OwnLog, Signals, TipSource};
+use super::conversions::{camera_angle, channel_in_range, in_si, stamps_s};
 use super::run_spec::RunSpec;
 use super::whole_turns;
 use crate::io_error::Error;
 use crate::log::{self, ColumnRef, LogColumn, LogError, LogOptions, Series};
 
-/// Stands for the name of the run's log, without its ending, in the name of another log.
-const RUN: &str = "{run}";
 /// A gap of more steps than this is not interpolated.
 const GAP_STEPS: f64 = 4.5;
 
@@ -58,6 +56,7 @@ impl RunLog<'_> {
             if signals.axis == Axis::Rotary {
                 whole_turns::remove_turns(&mut values);
             }
+            channel_in_range("motor", &values, &other.file)?;
             let motor = Own { file: other.file, stamps_s: other.stamps_s, values };
             let clock = self.clock_of_run(of, own, &motor)?;
             let at = |stamp_s: f64| clock.map_or(stamp_s, |c| c.reference_s(stamp_s));
@@ -93,6 +92,7 @@ impl RunLog<'_> {
             }
             let follows =
                 if angle && tip.calibrated { Follows::Angle } else { Follows::Acceleration };
+            channel_in_range(&tip.name, &values, &other.file)?;
             let tip_signal = Own { file: other.file, stamps_s: other.stamps_s, values };
             let clock = self.clock_of_tip(of, own, &tip_signal, &tip.name, follows)?;
             of.tips[k] = tip_signal.at_stamps(of, |t| clock.map_or(t, |c| c.other_s(t)));
@@ -114,7 +114,7 @@ impl RunLog<'_> {
         let command =
             StampedSignal { stamps_s: self.increasing(&of.stamps_s)?, values: &of.command };
         let found = other_clock(motor.stamped(), command, Follows::Torque);
-        found.map(Some).map_err(|error| self.no_clock(error, &motor.file, "motor"))
+        found.map(Some).map_err(|error| self.no_clock(error, motor, "motor"))
     }
 
     /// The clock of a tip's log, with that of the run as the reference.
@@ -134,7 +134,7 @@ impl RunLog<'_> {
         let values: Vec<f64> = kept.iter().map(|k| of.motor[*k]).collect();
         let motor = StampedSignal { stamps_s: self.increasing(&stamps_s)?, values: &values };
         let found = other_clock(motor, tip.stamped(), follows);
-        found.map(Some).map_err(|error| self.no_clock(error, &tip.file, name))
+        found.map(Some).map_err(|error| self.no_clock(error, tip, name))
     }
 
     fn increasing<'s>(&self, stamps_s: &'s [f64]) -> Result<&'s [f64], Error> {
@@ -144,14 +144,18 @@ impl RunLog<'_> {
         Err(LogError::RestartWithOtherLog { file: self.file.to_owned() }.into())
     }
 
-    fn no_clock(&self, error: OtherClockError, other: &str, channel: &str) -> Error {
-        let (file, other, channel) = (self.file.to_owned(), other.to_owned(), channel.to_owned());
-        match error {
-            OtherClockError::NoSharedMotion { explained } => {
-                LogError::NoSharedMotion { file, other, channel, explained }.into()
+    fn no_clock(&self, error: OtherClockError, other: &Own, channel: &str) -> Error {
+        let (file, channel) = (self.file.to_owned(), channel.to_owned());
+        let explained = match error {
+            OtherClockError::NoSharedMotion { explained } => explained,
+            OtherClockError::FewSamples { found, least } => {
+                let is_other = other.stamps_s.len() == found;
+                let file = if is_other { other.file.clone() } else { file };
+                return LogError::FewSamples { file, found, least }.into();
             }
-            _ => LogError::FewSamples { file: other, found: 0, least: 50 }.into(),
-        }
+            _ => 0.0,
+        };
+        LogError::NoSharedMotion { file, other: other.file.clone(), channel, explained }.into()
     }
 
     /// Reads a signal of another log.
@@ -161,9 +165,7 @@ impl RunLog<'_> {
         of_run: Option<&Path>,
         columns: &[&ColumnRef],
     ) -> Result<OwnColumns, Error> {
-        let stem =
-            self.spec.file.file_stem().map_or_else(String::new, |s| s.to_string_lossy().into());
-        let named = PathBuf::from(own.file.replace(RUN, &stem));
+        let named = PathBuf::from(log::of_run(&own.file, &self.spec.file));
         let path = self.folder.join(of_run.unwrap_or(&named));
         let file = path.display().to_string();
         let columns: Vec<LogColumn> = columns
@@ -171,22 +173,9 @@ impl RunLog<'_> {
             .map(|column| LogColumn { column: (*column).clone(), hold: Hold::Measured })
             .collect();
         let source = own.time.as_ref().unwrap_or(&self.signals.time);
-        let log = match source {
-            TimeSource::Stamps(column, _) => {
-                log::read_log(&path, Some(column), &columns, self.options)?
-            }
-            TimeSource::Steps(_) => log::read_log(&path, None, &columns, self.options)?,
-        };
-        let stamps_s: Vec<f64> = match (source, log.time) {
-            (TimeSource::Stamps(_, unit_s), Some(stamps)) => {
-                stamps.into_iter().map(|stamp| stamp * unit_s).collect()
-            }
-            (TimeSource::Steps(step_s), _) => {
-                let samples = log.columns.first().map_or(0, Vec::len);
-                (0..samples).map(|k| k as f64 * step_s * log.factor as f64).collect()
-            }
-            (TimeSource::Stamps(..), None) => Vec::new(),
-        };
+        let mut log = log::read_log(&path, source.column(), &columns, self.options)?;
+        let stamps_s = stamps_s(source, &mut log);
+        channel_in_range("time", &stamps_s, &file)?;
         if let Some(back) = log.time_back.first() {
             return Err(LogError::time_back(&file, "time", back).into());
         }

@@ -7,10 +7,7 @@ use super::inspection::{Inspection, inspect};
 use super::picks::Picks;
 use super::roles::Role;
 use super::user_choice::{Choice, quoted};
-use crate::log::LogPath;
-
-/// Stands for the name of the first log, without its ending.
-const RUN: &str = "{run}";
+use crate::log::{LogPath, of_run};
 
 /// A channel in a log of its own, as the user says it.
 pub(super) struct OwnLog {
@@ -29,9 +26,7 @@ impl OwnLog {
     /// # Errors
     /// [`DraftError`] if the log cannot be read.
     pub(super) fn of(choice: &Choice, first: &Inspection) -> Result<Option<Self>, DraftError> {
-        let stem = LogPath::of(&first.file).file;
-        let stem = stem.file_stem().map_or_else(String::new, |s| s.to_string_lossy().into());
-        let at = LogPath::of(Path::new(&choice.column.replace(RUN, &stem)));
+        let at = LogPath::of(Path::new(&of_run(&choice.column, &first.file)));
         let Some(column) = at.group.filter(|_| at.file.is_file()) else { return Ok(None) };
         let said = choice.column.strip_suffix(&format!("::{column}"));
         let file = said.map_or_else(|| at.file.display().to_string(), str::to_owned);

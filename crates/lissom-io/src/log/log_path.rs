@@ -12,6 +12,14 @@ use super::other_format::place;
 
 /// Between a file and a group in it.
 const SEPARATOR: &str = "::";
+/// Stands for the name of the run's log, without its ending, in the name of another log.
+const RUN: &str = "{run}";
+
+/// The name of another log of a run, in which `{run}` may stand for the name of the run's log.
+pub(crate) fn of_run(name: &str, run: &Path) -> String {
+    let run = LogPath::of(run).file;
+    name.replace(RUN, &run.file_stem().map_or_else(String::new, |s| s.to_string_lossy().into()))
+}
 
 /// Where a log is: `FILE`, or `FILE::GROUP`, in which `*` stands for any text.
 #[derive(Debug, Clone, PartialEq, Eq)]

@@ -37,6 +37,7 @@ pub(crate) use groups::alike_groups;
 pub use log_columns::{ColumnRef, Log, LogColumn, LogOptions, TimeBack};
 pub use log_error::LogError;
 pub(crate) use log_layout::{Delimiter, comment, is_header, number};
+pub(crate) use log_path::of_run;
 pub use log_path::{LogPart, LogPath};
 pub(crate) use one_clock::Series;
 pub(crate) use other_format::bare_name;

@@ -104,8 +104,13 @@ impl OtherClock {
 #[non_exhaustive]
 pub enum OtherClockError {
     /// A log has too few samples.
-    #[error("a log has fewer than {LEAST} samples")]
-    FewSamples,
+    #[error("a log has {found} samples, and {least} are needed")]
+    FewSamples {
+        /// Samples of the shorter log.
+        found: usize,
+        /// Fewest samples.
+        least: usize,
+    },
     /// The signal does not follow the motion at any offset.
     #[error("the logs share no motion")]
     NoSharedMotion {
@@ -138,7 +143,7 @@ impl StampedSignal<'_> {
 
     fn has_motion(&self) -> bool {
         let first = self.values.first().copied().unwrap_or_default();
-        self.stamps_s.len() >= LEAST && self.values.iter().any(|v| (v - first).abs() > 0.0)
+        self.values.iter().any(|v| (v - first).abs() > 0.0)
     }
 }
 
@@ -152,7 +157,8 @@ pub fn other_clock(
     follows: Follows,
 ) -> Result<OtherClock, OtherClockError> {
     if motor.stamps_s.len() < LEAST || other.stamps_s.len() < LEAST {
-        return Err(OtherClockError::FewSamples);
+        let found = motor.stamps_s.len().min(other.stamps_s.len());
+        return Err(OtherClockError::FewSamples { found, least: LEAST });
     }
     if !(motor.has_motion() && other.has_motion()) {
         return Err(OtherClockError::NoSharedMotion { explained: 0.0 });
