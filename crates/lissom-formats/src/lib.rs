@@ -34,6 +34,7 @@
 mod array;
 mod binary;
 mod bytes;
+mod channel_ref;
 mod collected;
 mod cursor;
 mod format;
@@ -63,8 +64,9 @@ mod wpilog;
 mod xlsx;
 mod zip;
 
+pub use channel_ref::{ChannelRef, bare_name};
 pub use format::Format;
 pub use format_error::FormatError;
 pub use log_data::{Channel, Clock, LogData};
-pub use read::{is_no_plain_table, read, read_bytes, read_with};
+pub use read::{is_no_plain_table, read, read_bytes, read_channels, read_with};
 pub use read_options::ReadOptions;

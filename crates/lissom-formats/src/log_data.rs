@@ -22,7 +22,9 @@ impl LogData {
     pub fn with_time_stamps(mut self) -> Self {
         let mut clocks: Vec<(f64, f64, usize)> = Vec::new();
         for channel in &self.channels {
-            if let Clock::Even { start_s, step_s } = channel.clock {
+            if let Clock::Even { start_s, step_s } = channel.clock
+                && !channel.values.is_empty()
+            {
                 let clock = (start_s, step_s, channel.values.len());
                 if !clocks.contains(&clock) {
                     clocks.push(clock);
@@ -55,7 +57,7 @@ pub struct Channel {
     pub name: String,
     /// Its unit, as the file states it.
     pub unit: Option<String>,
-    /// Its values; NaN where the file has none.
+    /// Its values; NaN where the file has none. Empty if the channel was not asked for.
     pub values: Vec<f64>,
     /// The clock of its values.
     pub clock: Clock,

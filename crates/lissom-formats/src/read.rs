@@ -3,6 +3,7 @@
 use std::path::Path;
 
 use crate::bytes::{GZIP, ZSTD};
+use crate::channel_ref::{ChannelRef, Wanted};
 use crate::format::foreign;
 use crate::format_error::FormatError;
 use crate::log_data::LogData;
@@ -22,7 +23,20 @@ pub fn read(path: &Path) -> Result<LogData, FormatError> {
 /// # Errors
 /// As [`read`], and [`FormatError::Content`] if there is no table where the options state it.
 pub fn read_with(path: &Path, options: &ReadOptions) -> Result<LogData, FormatError> {
-    of_expanded(&bytes::of_file(path)?, options)
+    of_expanded(&bytes::of_file(path)?, options, Wanted::ALL)
+}
+
+/// Reads some channels of a log file, and the time stamps that the file gives them. Of the others the values may be left
+/// out, so that they take no memory.
+///
+/// # Errors
+/// As [`read_with`].
+pub fn read_channels(
+    path: &Path,
+    options: &ReadOptions,
+    channels: &[ChannelRef],
+) -> Result<LogData, FormatError> {
+    of_expanded(&bytes::of_file(path)?, options, Wanted::of(channels))
 }
 
 /// Reads all channels of a log file that is in memory.
@@ -30,10 +44,14 @@ pub fn read_with(path: &Path, options: &ReadOptions) -> Result<LogData, FormatEr
 /// # Errors
 /// As [`read`].
 pub fn read_bytes(bytes: Vec<u8>) -> Result<LogData, FormatError> {
-    of_expanded(&bytes::expanded(bytes)?, &ReadOptions::default())
+    of_expanded(&bytes::expanded(bytes)?, &ReadOptions::default(), Wanted::ALL)
 }
 
-fn of_expanded(bytes: &[u8], options: &ReadOptions) -> Result<LogData, FormatError> {
+fn of_expanded(
+    bytes: &[u8],
+    options: &ReadOptions,
+    wanted: Wanted,
+) -> Result<LogData, FormatError> {
     if let Some(found) = binary::read(bytes) {
         return found;
     }
@@ -47,7 +65,7 @@ fn of_expanded(bytes: &[u8], options: &ReadOptions) -> Result<LogData, FormatErr
     {
         return Ok(found);
     }
-    text::read(&text, options)
+    text::read(&text, options, wanted)
 }
 
 /// Whether the first bytes of a file show that it is not a plain table: compressed, a trace of CODESYS, binary, or a format

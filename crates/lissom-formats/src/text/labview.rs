@@ -3,6 +3,7 @@
 use super::cells::Separator;
 use super::find::find;
 use super::stamps::Stamp;
+use crate::channel_ref::Wanted;
 use crate::format::Format;
 use crate::format_error::FormatError;
 use crate::log_data::{Channel, Clock, LogData};
@@ -45,7 +46,7 @@ fn joined<'a>(
         let table = find(segment, 0, options.decimal_comma);
         let table = table.ok_or_else(|| wrong("it has no table of numbers"))?;
         let begin = begin(segment, table.separator);
-        let found = table.read(None).map_err(|error| match error {
+        let found = table.read(None, Wanted::ALL).map_err(|error| match error {
             FormatError::Content { place, reason } => wrong(&format!("{place}: {reason}")),
             other => other,
         })?;

@@ -19,6 +19,7 @@ pub(crate) use decode::decoded;
 #[cfg(feature = "xlsx")]
 pub(crate) use find::find_in_tabs;
 
+use crate::channel_ref::Wanted;
 use crate::format_error::FormatError;
 use crate::log_data::LogData;
 use crate::read_options::ReadOptions;
@@ -27,7 +28,11 @@ use crate::read_options::ReadOptions;
 const MOST_LINES: usize = 1 << 27;
 
 /// Reads a text that contains a table.
-pub(crate) fn read(text: &str, options: &ReadOptions) -> Result<LogData, FormatError> {
+pub(crate) fn read(
+    text: &str,
+    options: &ReadOptions,
+    wanted: Wanted,
+) -> Result<LogData, FormatError> {
     if text.bytes().filter(|byte| *byte == b'\n').count() > MOST_LINES {
         let reason = format!("it has more than {MOST_LINES} lines");
         return Err(FormatError::content("text", reason));
@@ -52,5 +57,5 @@ pub(crate) fn read(text: &str, options: &ReadOptions) -> Result<LogData, FormatE
     {
         return Ok(found);
     }
-    table.read(header_row)
+    table.read(header_row, wanted)
 }

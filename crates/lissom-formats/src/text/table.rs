@@ -6,6 +6,7 @@ use super::header::Header;
 use super::lines::{MANY_COLUMNS, is_skipped};
 use super::preamble::Preamble;
 use super::stamp_pairs;
+use crate::channel_ref::Wanted;
 use crate::format::Format;
 use crate::format_error::FormatError;
 use crate::log_data::{Channel, LogData};
@@ -32,7 +33,11 @@ pub(crate) struct Table<'a> {
 
 impl Table<'_> {
     /// Its channels; the names are in the row `header_row`, if it is stated.
-    pub(crate) fn read(&self, header_row: Option<usize>) -> Result<LogData, FormatError> {
+    pub(crate) fn read(
+        &self,
+        header_row: Option<usize>,
+        wanted: Wanted,
+    ) -> Result<LogData, FormatError> {
         let rows = (self.first..self.end).filter(|k| !is_skipped(self.lines[*k])).count();
         if (2..=FEW_ROWS).contains(&rows) && self.width >= MANY_COLUMNS && self.width > 4 * rows {
             return Ok(self.by_rows());
@@ -67,7 +72,7 @@ impl Table<'_> {
             notes
                 .push(format!("commas are ambiguous: numbers such as 1,234 are read as {read_as}"));
         }
-        let mut channels = self.columns(&header, end);
+        let mut channels = self.columns(&header, end, wanted);
         preamble.set_clock(&mut channels);
         stamp_pairs::append(&mut channels);
         Ok(LogData {
@@ -94,16 +99,25 @@ impl Table<'_> {
     }
 
     /// The columns of the rows before `end`.
-    pub(crate) fn columns(&self, header: &Header, end: usize) -> Vec<Channel> {
+    pub(crate) fn columns(&self, header: &Header, end: usize, wanted: Wanted) -> Vec<Channel> {
         let rows = end - self.first;
-        let mut columns: Vec<Column> = (0..self.width).map(|_| Column::new(rows)).collect();
+        let name = |k: usize| header.names.get(k).map_or("", String::as_str);
+        let wanted =
+            if wanted.are_all_in((0..self.width).map(name)) { wanted } else { Wanted::ALL };
+        let is_wanted: Vec<bool> =
+            (0..self.width).map(|k| wanted.has_at(name(k), Some(k + 1))).collect();
+        let rows_of = |k: usize| if is_wanted[k] { rows } else { 0 };
+        let mut columns: Vec<Column> = (0..self.width).map(|k| Column::new(rows_of(k))).collect();
         for row in self.first..end {
             if is_skipped(self.lines[row]) {
                 continue;
             }
             let mut cells = self.separator.cells(self.lines[row]);
-            for column in &mut columns {
-                column.take(cells.next().unwrap_or(""), self.decimal, row + 1);
+            for (column, is_wanted) in columns.iter_mut().zip(&is_wanted) {
+                let cell = cells.next().unwrap_or("");
+                if *is_wanted {
+                    column.take(cell, self.decimal, row + 1);
+                }
             }
         }
         let mut channels = Vec::with_capacity(self.width);

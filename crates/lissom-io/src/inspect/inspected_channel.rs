@@ -5,8 +5,8 @@ use lissom_formats::{Channel, Clock};
 use super::channel_facts::ChannelFacts;
 use super::relations::Relation;
 use super::stated_unit::{StatedUnit, stated_unit};
-use crate::log::bare_name;
 use crate::units::Dimension;
+use lissom_formats::bare_name;
 
 /// A channel, described by itself.
 #[derive(Debug, Clone)]

@@ -4,7 +4,7 @@ use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 use lissom_core::identify::is_possible_sample_time;
-use lissom_formats::{Channel, Format, LogData, ReadOptions};
+use lissom_formats::{Channel, Format, LogData, ReadOptions, bare_name};
 
 use super::clock_facts::ClockFacts;
 use super::draft_error::DraftError;
@@ -13,7 +13,7 @@ use super::relations::{MOST_CHANNELS, Relation, relation};
 use super::roles::{Guess, Role, Roles, looks_like_time};
 use super::stated_unit::{StatedUnit, stated_unit};
 use crate::io_error::Error;
-use crate::log::{LogPath, alike_groups, bare_name};
+use crate::log::{LogPath, alike_groups};
 
 /// Share by which the factor of a rate may differ from that of the stated units.
 const UNITS_AGREE: f64 = 0.1;

@@ -7,7 +7,7 @@ use super::inspected_channel::InspectedChannel;
 use super::inspection::Inspection;
 use super::roles::Role;
 use super::user_choice::{Choice, quoted};
-use crate::log::bare_name;
+use lissom_formats::bare_name;
 
 /// A channel for a role: which, why, and what the user says about it.
 pub(super) struct Picked<'a> {

@@ -1,27 +1,9 @@
 //! Columns of a log: which to read, how to read them, and their values.
 
-use std::fmt;
-
 use lissom_core::record::Hold;
 use lissom_formats::ReadOptions;
 
-/// A column of a log.
-#[derive(Debug, Clone, PartialEq, Eq)]
-pub enum ColumnRef {
-    /// By its name in the header; it must match exactly, without blanks around it.
-    Name(String),
-    /// By its number, from 1.
-    Number(usize),
-}
-
-impl fmt::Display for ColumnRef {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self {
-            Self::Name(name) => write!(f, "\"{name}\""),
-            Self::Number(number) => write!(f, "{number}"),
-        }
-    }
-}
+pub use lissom_formats::ChannelRef as ColumnRef;
 
 /// A column to read, and how to thin it.
 #[derive(Debug, Clone, PartialEq, Eq)]

@@ -40,6 +40,5 @@ pub(crate) use log_layout::{Delimiter, comment, is_header, number};
 pub(crate) use log_path::of_run;
 pub use log_path::{LogPart, LogPath};
 pub(crate) use one_clock::Series;
-pub(crate) use other_format::bare_name;
 pub use plain_log::read_log_from;
 pub use read_log::{read_log, read_part};

@@ -3,7 +3,7 @@
 use std::path::Path;
 
 use lissom_core::record::Hold;
-use lissom_formats::{Channel, Clock, Format, FormatError, LogData};
+use lissom_formats::{Channel, Clock, Format, FormatError, LogData, bare_name};
 
 use super::groups::groups;
 use super::log_body::Body;
@@ -22,7 +22,10 @@ pub(super) fn read(
     first: Option<LogError>,
 ) -> Result<Log, LogError> {
     let file = path.display().to_string();
-    let (data, first) = match (lissom_formats::read_with(path, &options.of_text()), first) {
+    let wanted: Vec<ColumnRef> =
+        time.into_iter().chain(columns.iter().map(|c| &c.column)).cloned().collect();
+    let read = lissom_formats::read_channels(path, &options.of_text(), &wanted);
+    let (data, first) = match (read, first) {
         (Ok(data), first) => (data.with_time_stamps(), first),
         // What is wrong with the text is known better from its first reading.
         (
@@ -119,11 +122,6 @@ pub(super) fn place(file: &str, wanted: &ColumnRef, data: &LogData) -> Result<us
             Err(LogError::Ambiguous { file: file(), column, numbers, groups: groups(data) })
         }
     }
-}
-
-/// A name without the mark of a comment before it.
-pub(crate) fn bare_name(name: &str) -> &str {
-    name.trim().trim_start_matches(['#', '%', ' '])
 }
 
 /// The columns with the same rows, time first if it is asked for; `None` if they cannot be brought onto one clock.
