@@ -114,7 +114,7 @@ def main():
         head = [f"{FILES} files of CSV, {size:.0f} MB", "time", "times lissom's", "sums differ by"]
         table("text", head, rows)
         rows = []
-        exact = np.array([values.sum() for values in columns.values()])
+        exact = np.array([columns[name].sum() for name in sorted(columns)])
         for name, of in ours["binary"].items():
             wrong = np.abs(np.array(of["sums"]) / exact - 1).max()
             ratio = f"{of['read_s'] / of['alone_s']:.3g}"

@@ -32,8 +32,9 @@ fn main() {
     for log in files(&Path::new(&folder).join("binary")) {
         let name = log.file_name().unwrap().to_string_lossy().into_owned();
         let (read_s, sums) = median_s(|| {
-            let data = lissom_formats::read(&log).unwrap();
-            data.channels.iter().map(|channel| channel.values.iter().sum()).collect()
+            let mut channels = lissom_formats::read(&log).unwrap().channels;
+            channels.sort_by(|a, b| a.name.cmp(&b.name));
+            channels.iter().map(|channel| channel.values.iter().sum()).collect()
         });
         let alone = Path::new(&folder).join("compressed").join(format!("{name}.gz"));
         let (alone_s, _) = median_s(|| {

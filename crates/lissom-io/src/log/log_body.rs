@@ -4,7 +4,8 @@ use lissom_core::record::Hold;
 
 use super::log_columns::{Log, LogOptions, TimeBack};
 use super::log_error::LogError;
-use super::log_layout::{self, Delimiter, PlainDecimal};
+use super::log_layout::{self, Delimiter};
+use super::plain_row::PlainRow;
 use super::thinner::Thinner;
 
 /// Largest number of places at which time may go back.
@@ -21,6 +22,7 @@ pub(super) struct Body<'a> {
     pub(super) labels: Vec<String>,
     /// Their indices.
     pub(super) wanted: Vec<usize>,
+    pub(super) plain: PlainRow,
     pub(super) has_time: bool,
     pub(super) values: Vec<f64>,
     /// Values of the row before.
@@ -50,6 +52,7 @@ impl<'a> Body<'a> {
             columns: columns.len(),
             labels,
             wanted: Vec::new(),
+            plain: PlainRow::new(Delimiter::Blanks, false, 0, &[]),
             has_time,
             values: Vec::new(),
             last: Vec::new(),
@@ -99,37 +102,23 @@ impl<'a> Body<'a> {
         self.push(row)
     }
 
-    /// Takes a row of plain decimals, as most rows are, in one pass. Returns `false` without taking anything for other
-    /// rows.
-    pub(super) fn take_plain(&mut self, line: &[u8], row: usize) -> Result<bool, LogError> {
-        let Delimiter::Char(delimiter) = self.delimiter else { return Ok(false) };
-        let line = line.strip_suffix(b"\n").unwrap_or(line);
-        let mut rest = line.strip_suffix(b"\r").unwrap_or(line);
-        let (mut found, mut decimals) = (0, 0);
-        for index in 0..self.columns {
-            let Some(cell) = PlainDecimal::leading(rest) else { return Ok(false) };
-            for k in 0..self.wanted.len() {
-                if self.wanted[k] == index {
-                    self.values[k] = cell.value;
-                    found += 1;
-                    if k == 0 {
-                        decimals = cell.decimals;
-                    }
-                }
+    /// Takes the rows of plain numbers at the beginning of a text, as most rows are, and gives the number of their bytes.
+    pub(super) fn take_plain(&mut self, text: &[u8], row: &mut usize) -> Result<usize, LogError> {
+        let mut taken = 0;
+        while let Some(found) = self.plain.read(&text[taken..], &mut self.values) {
+            if self.has_time {
+                self.decimals = self.decimals.zip(found.decimals).map(|(a, b)| a.max(b));
             }
-            match rest[cell.length..].split_first() {
-                Some((byte, others)) if char::from(*byte) == delimiter => rest = others,
-                Some(_) => return Ok(false),
-                None if found < self.wanted.len() => return Ok(false),
-                None => {
-                    if self.has_time {
-                        self.decimals = self.decimals.map(|most| most.max(decimals));
-                    }
-                    return self.push(row).map(|()| true);
-                }
-            }
+            taken += found.length;
+            self.push(*row)?;
+            *row += 1;
         }
-        Ok(false)
+        Ok(taken)
+    }
+
+    /// Makes room for so many rows.
+    pub(super) fn expect(&mut self, rows: usize) {
+        self.thinner.expect(rows);
     }
 
     /// Adds the row whose values were read.

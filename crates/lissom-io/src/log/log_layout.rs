@@ -4,6 +4,7 @@ use std::collections::VecDeque;
 
 use super::log_columns::ColumnRef;
 use super::log_error::LogError;
+use super::plain_decimal::PlainDecimal;
 use crate::nearest::nearest;
 
 /// Separator of cells.
@@ -99,55 +100,10 @@ pub(crate) fn number(cell: &str, decimal_comma: bool) -> Option<f64> {
 
 /// Parses a cell that is exactly a [`PlainDecimal`].
 fn plain_decimal(cell: &[u8]) -> Option<f64> {
-    PlainDecimal::leading(cell).filter(|found| found.length == cell.len()).map(|found| found.value)
+    PlainDecimal::leading(cell, b'.')
+        .filter(|found| found.length == cell.len())
+        .map(|found| found.value)
 }
-
-/// A number with digits and at most one point, so that one division of two exact numbers gives the nearest value.
-pub(super) struct PlainDecimal {
-    pub(super) value: f64,
-    /// Digits after the point.
-    pub(super) decimals: usize,
-    /// Number of its characters.
-    pub(super) length: usize,
-}
-
-impl PlainDecimal {
-    /// The number at the beginning of a text.
-    pub(super) fn leading(text: &[u8]) -> Option<Self> {
-        /// Numbers with this many digits are below 2^53.
-        const MOST_DIGITS: usize = 15;
-        let negative = text.first() == Some(&b'-');
-        let unsigned = &text[usize::from(negative)..];
-        let (mut whole, mut digits, mut point, mut length) = (0_u64, 0, None, 0);
-        for byte in unsigned {
-            match byte {
-                b'0'..=b'9' => {
-                    whole = whole * 10 + u64::from(byte - b'0');
-                    digits += usize::from(whole > 0);
-                }
-                b'.' if point.is_none() => point = Some(length),
-                _ => break,
-            }
-            if digits > MOST_DIGITS {
-                return None;
-            }
-            length += 1;
-        }
-        let decimals = point.map_or(0, |at| length - at - 1);
-        if length == usize::from(point.is_some()) || decimals >= TENS.len() {
-            return None;
-        }
-        let value = whole as f64 / TENS[decimals];
-        let value = if negative { -value } else { value };
-        Some(Self { value, decimals, length: length + usize::from(negative) })
-    }
-}
-
-/// Powers of ten that are exact.
-const TENS: [f64; 23] = [
-    1e0, 1e1, 1e2, 1e3, 1e4, 1e5, 1e6, 1e7, 1e8, 1e9, 1e10, 1e11, 1e12, 1e13, 1e14, 1e15, 1e16,
-    1e17, 1e18, 1e19, 1e20, 1e21, 1e22,
-];
 
 /// Whether most cells of the row are not numbers.
 pub(crate) fn is_header(row: &str, delimiter: Delimiter, decimal_comma: bool) -> bool {
@@ -230,37 +186,6 @@ pub(super) fn find_column(
                     numbers: matches.iter().map(|index| index + 1).collect(),
                 }),
             }
-        }
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn a_plain_decimal_is_what_the_library_reads() {
-        for cell in [
-            "0",
-            "-0",
-            "-0.0",
-            "1.",
-            ".5",
-            "-.25",
-            "12.345678901",
-            "0.000000004738",
-            "123456789012345",
-            "00000000000000000000.1",
-            "0.1000000000000000055",
-            "999999999999999",
-            "1234567890123456",
-        ] {
-            let read: f64 = cell.parse().unwrap();
-            let found = number(cell, false).unwrap();
-            assert!(found.total_cmp(&read).is_eq(), "{cell}: {found}");
-        }
-        for cell in ["", ".", "-", "1.2.3", "1,5", "--1", "1 2"] {
-            assert_eq!(plain_decimal(cell.as_bytes()), None, "{cell}");
         }
     }
 }

@@ -10,6 +10,7 @@ use super::log_body::Body;
 use super::log_columns::{ColumnRef, Log, LogColumn, LogOptions};
 use super::log_error::LogError;
 use super::log_layout::{self, Delimiter};
+use super::plain_row::PlainRow;
 use super::thinner::Thinner;
 
 /// Largest length of a row in bytes.
@@ -30,6 +31,18 @@ pub fn read_log_from(
     columns: &[LogColumn],
     options: &LogOptions,
 ) -> Result<Log, LogError> {
+    read_rows(reader, None, name, time, columns, options)
+}
+
+/// Reads a log, of so many bytes if that is known.
+pub(super) fn read_rows(
+    reader: impl BufRead,
+    bytes: Option<u64>,
+    name: &str,
+    time: Option<&ColumnRef>,
+    columns: &[LogColumn],
+    options: &LogOptions,
+) -> Result<Log, LogError> {
     let mut rows = LogRows { reader, name, row: 0, bytes: Vec::new() };
     let Some(head) = Head::read(&mut rows, options)? else {
         return Err(LogError::Empty { file: name.to_owned() });
@@ -42,12 +55,14 @@ pub fn read_log_from(
         .map(|column| log_layout::find_column(name, column, &head.names, head.columns))
         .collect::<Result<Vec<_>, _>>()?;
     let holds = time.map(|_| Hold::Measured).into_iter().chain(columns.iter().map(|c| c.hold));
+    let all = if by_name { head.most } else { head.columns };
     let mut body = Body {
         file: name,
         delimiter: head.delimiter,
         decimal_comma: options.decimal_comma,
-        columns: if by_name { head.most } else { head.columns },
+        columns: all,
         labels: refs.iter().map(ToString::to_string).collect(),
+        plain: PlainRow::new(head.delimiter, options.decimal_comma, all, &wanted),
         wanted,
         has_time: time.is_some(),
         values: vec![f64::NAN; refs.len()],
@@ -62,11 +77,14 @@ pub fn read_log_from(
     if let Some(first) = head.first {
         body.take(&first, first_row)?;
     }
-    while let Some(row) = rows.advance()? {
-        if rows.is_whole() && body.take_plain(&rows.bytes, row)? {
-            continue;
-        }
-        let line = rows.line()?;
+    let first = rows.take_plain(&mut body)?;
+    if let (Some(bytes), 1..) = (bytes, first) {
+        // About as many rows in the rest of the file.
+        body.expect(rows.row * (bytes as usize).div_ceil(first));
+    }
+    loop {
+        rows.take_plain(&mut body)?;
+        let Some((row, line)) = rows.next()? else { break };
         if !line.trim().is_empty() && log_layout::comment(&line).is_none() {
             body.take(&line, row)?;
         }
@@ -83,6 +101,18 @@ struct LogRows<'a, R> {
 }
 
 impl<R: BufRead> LogRows<'_, R> {
+    /// Takes the next rows as far as they are in the buffer, if they are plain numbers, and gives the number of their bytes.
+    fn take_plain(&mut self, body: &mut Body) -> Result<usize, LogError> {
+        let (file, row) = (|| self.name.to_owned(), self.row + 1);
+        let buffer = self.reader.fill_buf();
+        let buffer = buffer.map_err(|source| LogError::Read { file: file(), row, source })?;
+        let mut next = row;
+        let taken = body.take_plain(buffer, &mut next)?;
+        self.reader.consume(taken);
+        self.row = next - 1;
+        Ok(taken)
+    }
+
     /// The next line, and its number from 1.
     fn next(&mut self) -> Result<Option<(usize, Cow<'_, str>)>, LogError> {
         match self.advance()? {

@@ -8,8 +8,10 @@ use super::log_columns::{ColumnRef, Log, LogColumn, LogOptions};
 use super::log_error::LogError;
 use super::log_path::{LogPart, LogPath};
 use super::other_format;
-use super::plain_log::read_log_from;
+use super::plain_log::read_rows;
 
+/// Bytes that are read at once.
+const BUFFER_BYTES: usize = 1 << 18;
 /// A log with at most so many rows may have a row for each signal in place of a column.
 const FEW_ROWS: usize = 20;
 
@@ -34,7 +36,8 @@ pub fn read_log(
     let name = path.display().to_string();
     match File::open(path).and_then(only_file) {
         Ok(file) => {
-            let mut reader = BufReader::with_capacity(1 << 16, file);
+            let bytes = file.metadata().ok().map(|of| of.len());
+            let mut reader = BufReader::with_capacity(BUFFER_BYTES, file);
             let begins = reader
                 .fill_buf()
                 .map_err(|source| LogError::Open { file: name.clone(), source })?;
@@ -42,7 +45,7 @@ pub fn read_log(
             if stated || lissom_formats::is_no_plain_table(begins) {
                 return other_format::read(path, time, columns, options, None);
             }
-            match read_log_from(reader, &name, time, columns, options) {
+            match read_rows(reader, bytes, &name, time, columns, options) {
                 Err(error) if error.may_be_another_format() => {
                     other_format::read(path, time, columns, options, Some(error))
                 }

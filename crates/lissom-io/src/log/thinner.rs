@@ -30,6 +30,14 @@ impl Thinner {
         }
     }
 
+    /// Makes room for so many rows.
+    pub(super) fn expect(&mut self, rows: usize) {
+        let samples = rows.min(self.most);
+        for column in &mut self.columns {
+            column.reserve_exact(samples.saturating_sub(column.len()));
+        }
+    }
+
     pub(super) fn push(&mut self, row: &[f64]) {
         let channels = self.partial.iter_mut().zip(&self.holds).zip(row);
         for ((partial, hold), &value) in channels {
