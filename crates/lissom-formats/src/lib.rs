@@ -53,6 +53,7 @@ mod numpy;
 #[cfg(feature = "parquet")]
 mod parquet_file;
 mod parts;
+mod plain_decimal;
 mod read;
 mod read_options;
 mod tdms;
@@ -68,5 +69,6 @@ pub use channel_ref::{ChannelRef, bare_name};
 pub use format::Format;
 pub use format_error::FormatError;
 pub use log_data::{Channel, Clock, LogData};
+pub use plain_decimal::PlainDecimal;
 pub use read::{is_no_plain_table, read, read_bytes, read_channels, read_with};
 pub use read_options::ReadOptions;

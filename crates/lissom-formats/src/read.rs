@@ -8,7 +8,7 @@ use crate::format::foreign;
 use crate::format_error::FormatError;
 use crate::log_data::LogData;
 use crate::read_options::ReadOptions;
-use crate::{binary, bytes, json, text};
+use crate::{binary, bytes, text};
 
 /// Reads all channels of a log file.
 ///
@@ -58,14 +58,7 @@ fn of_expanded(
     if let Some((what, way_out)) = foreign(bytes) {
         return Err(FormatError::Foreign { what, way_out });
     }
-    let text = text::decoded(bytes)?;
-    let first = text.trim_start().chars().next();
-    if matches!(first, Some('{' | '['))
-        && let Some(found) = json::read(&text)?
-    {
-        return Ok(found);
-    }
-    text::read(&text, options, wanted)
+    text::read(&mut &bytes[..], options, wanted)
 }
 
 /// Whether the first bytes of a file show that it is not a plain table: compressed, a trace of CODESYS, binary, or a format

@@ -58,7 +58,7 @@ fn of_sheets(bytes: &[u8], found: &mut Collected) -> Result<LogData, FormatError
     let Sheet { name, text, dates } = best.ok_or(FormatError::NoTable)?;
     let text = padded(&text, find_in_tabs(&text).map_or(0, |table| table.width));
     let table = find_in_tabs(&text).ok_or(FormatError::NoTable)?;
-    let mut data = table.read(None, Wanted::ALL).map_err(|error| match error {
+    let mut data = table.read(None, Wanted::ALL, None).map_err(|error| match error {
         FormatError::Content { place, reason } => {
             FormatError::content(format!("sheet {name}, {place}"), reason)
         }

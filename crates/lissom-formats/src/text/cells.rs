@@ -1,6 +1,7 @@
 //! Cells of a row, and what they contain.
 
 use super::stamps::Stamp;
+use crate::plain_decimal::PlainDecimal;
 
 /// What separates the cells of a row.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -30,8 +31,20 @@ impl Separator {
         if self == Self::Blanks {
             rest = Some(row.trim());
         }
+        // Most rows have no quote, and one byte between two cells.
+        let plain = match self {
+            Self::Char(separator) if separator.is_ascii() && !row.contains('"') => {
+                Some(separator as u8)
+            }
+            _ => None,
+        };
         std::iter::from_fn(move || {
             let row = rest?;
+            if let Some(separator) = plain {
+                let end = row.bytes().position(|byte| byte == separator);
+                rest = end.map(|at| &row[at + 1..]);
+                return Some(row[..end.unwrap_or(row.len())].trim());
+            }
             let mut quoted = false;
             let ends = |(at, c): &(usize, char)| {
                 quoted ^= *c == '"';
@@ -75,14 +88,18 @@ pub(crate) enum Decimal {
 impl Decimal {
     /// Reads a number.
     pub(super) fn number(self, text: &str) -> Option<f64> {
-        if let Ok(value) = text.parse() {
-            return Some(value);
+        let plain = PlainDecimal::value_of(text, b'.').or_else(|| text.parse().ok());
+        if plain.is_some() {
+            return plain;
         }
         match self {
             Self::Point => None,
             Self::Comma => {
                 let (whole, decimals) = text.split_once(',')?;
                 decimals.starts_with(|c: char| c.is_ascii_digit()).then_some(())?;
+                if let Some(value) = PlainDecimal::value_of(text, b',') {
+                    return Some(value);
+                }
                 match grouped(whole, '.') {
                     Some(whole) => format!("{whole}.{decimals}").parse().ok(),
                     None if whole.contains('.') => None,

@@ -22,6 +22,11 @@ impl Column {
         Self { values, imaginary: Vec::new(), first: None, last_s: 0.0, not_a_number: None }
     }
 
+    /// Makes room for so many rows.
+    pub(crate) fn expect(&mut self, rows: usize) {
+        self.values.reserve_exact(rows);
+    }
+
     pub(crate) fn take(&mut self, cell: &str, decimal: Decimal, row: usize) {
         let value = match Cell::of(cell, decimal) {
             Cell::Number(value) => value,

@@ -2,6 +2,7 @@
 
 use super::cells::{Cell, Decimal, Separator};
 use super::lines::{MANY_COLUMNS, is_skipped};
+use super::row::Row;
 use super::table::Table;
 
 /// A block of so many rows is a table; a shorter one only if there is no other.
@@ -140,28 +141,4 @@ fn block(lines: &[&str], skipped: usize, separator: Separator, decimal: Decimal)
         }
     }
     best
-}
-
-/// A row of numbers.
-struct Row {
-    /// Number of cells up to the last filled one.
-    width: usize,
-    /// Cells with values, less those with words.
-    values: usize,
-}
-
-impl Row {
-    /// A line as a row; `None` if most of its cells are no values.
-    fn of(line: &str, separator: Separator, decimal: Decimal) -> Option<Self> {
-        let (mut values, mut words, mut width) = (0_usize, 0_usize, 0);
-        for (k, cell) in separator.cells(line).enumerate() {
-            match Cell::of(cell, decimal) {
-                Cell::Blank => continue,
-                Cell::Words => words += 1,
-                _ => values += 1,
-            }
-            width = k + 1;
-        }
-        (values > words).then(|| Self { width, values: values - words })
-    }
 }

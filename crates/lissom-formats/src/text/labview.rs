@@ -46,7 +46,7 @@ fn joined<'a>(
         let table = find(segment, 0, options.decimal_comma);
         let table = table.ok_or_else(|| wrong("it has no table of numbers"))?;
         let begin = begin(segment, table.separator);
-        let found = table.read(None, Wanted::ALL).map_err(|error| match error {
+        let found = table.read(None, Wanted::ALL, None).map_err(|error| match error {
             FormatError::Content { place, reason } => wrong(&format!("{place}: {reason}")),
             other => other,
         })?;

@@ -5,6 +5,8 @@ use super::column::Column;
 use super::header::Header;
 use super::lines::{MANY_COLUMNS, is_skipped};
 use super::preamble::Preamble;
+use super::rest::Rest;
+use super::rows::Rows;
 use super::stamp_pairs;
 use crate::channel_ref::Wanted;
 use crate::format::Format;
@@ -14,7 +16,7 @@ use crate::log_data::{Channel, LogData};
 /// A table with at most so many rows may have one row for each signal.
 const FEW_ROWS: usize = 20;
 /// Lines after the table that may contain something else.
-const LAST_LINES: usize = 3;
+const LAST_LINES: usize = 4;
 
 /// A table in a text.
 pub(crate) struct Table<'a> {
@@ -32,11 +34,12 @@ pub(crate) struct Table<'a> {
 }
 
 impl Table<'_> {
-    /// Its channels; the names are in the row `header_row`, if it is stated.
+    /// Its channels; the names are in the row `header_row`, if it is stated. The table may go on in the rest of the text.
     pub(crate) fn read(
         &self,
         header_row: Option<usize>,
         wanted: Wanted,
+        rest: Option<Rest>,
     ) -> Result<LogData, FormatError> {
         let rows = (self.first..self.end).filter(|k| !is_skipped(self.lines[*k])).count();
         if (2..=FEW_ROWS).contains(&rows) && self.width >= MANY_COLUMNS && self.width > 4 * rows {
@@ -45,20 +48,18 @@ impl Table<'_> {
         if rows < 2 {
             return Err(FormatError::NoTable);
         }
-        let mut notes = Vec::new();
+        let (mut notes, mut at_end) = (Vec::new(), None);
         let mut end = self.end;
         let last = self.lines.len() - 1;
-        if end == last + 1 && self.ends_in_a_row && self.cells_in(last) < self.width {
-            notes.push(format!("row {} is incomplete and left out", last + 1));
+        let is_last = rest.is_none() && end == last + 1 && self.ends_in_a_row;
+        if is_last && self.cells_in(last) < self.width {
+            at_end = Some(incomplete(last + 1));
             end = last;
         }
-        let after = (end..self.lines.len()).filter(|k| !is_skipped(self.lines[*k]));
-        let after: Vec<usize> = after.filter(|k| *k != last || end > last).collect();
+        let after = (self.end..self.lines.len()).filter(|k| !is_skipped(self.lines[*k]));
+        let after: Vec<usize> = after.collect();
         if after.len() > LAST_LINES {
-            let row = after[0];
-            let text: String = self.lines[row].trim().chars().take(40).collect();
-            let reason = format!("the table of numbers ends at \"{text}\", and more follows");
-            return Err(FormatError::content(format!("row {}", row + 1), reason));
+            return Err(more_follows(after[0] + 1, self.lines[after[0]]));
         }
         let mut header = self.header(header_row)?;
         let preamble = Preamble::of(&self.lines[..self.first], self.separator, self.decimal);
@@ -72,7 +73,12 @@ impl Table<'_> {
             notes
                 .push(format!("commas are ambiguous: numbers such as 1,234 are read as {read_as}"));
         }
-        let mut channels = self.columns(&header, end, wanted);
+        let mut rows = self.rows(&header, end, wanted);
+        if let Some(rest) = rest {
+            at_end = go_on(&mut rows, rest)?;
+        }
+        notes.extend(at_end);
+        let mut channels = rows.channels(&header);
         preamble.set_clock(&mut channels);
         stamp_pairs::append(&mut channels);
         Ok(LogData {
@@ -99,34 +105,18 @@ impl Table<'_> {
     }
 
     /// The columns of the rows before `end`.
-    pub(crate) fn columns(&self, header: &Header, end: usize, wanted: Wanted) -> Vec<Channel> {
-        let rows = end - self.first;
-        let name = |k: usize| header.names.get(k).map_or("", String::as_str);
-        let wanted =
-            if wanted.are_all_in((0..self.width).map(name)) { wanted } else { Wanted::ALL };
-        let is_wanted: Vec<bool> =
-            (0..self.width).map(|k| wanted.has_at(name(k), Some(k + 1))).collect();
-        let rows_of = |k: usize| if is_wanted[k] { rows } else { 0 };
-        let mut columns: Vec<Column> = (0..self.width).map(|k| Column::new(rows_of(k))).collect();
-        for row in self.first..end {
-            if is_skipped(self.lines[row]) {
-                continue;
-            }
-            let mut cells = self.separator.cells(self.lines[row]);
-            for (column, is_wanted) in columns.iter_mut().zip(&is_wanted) {
-                let cell = cells.next().unwrap_or("");
-                if *is_wanted {
-                    column.take(cell, self.decimal, row + 1);
-                }
-            }
+    pub(crate) fn columns(&self, header: &Header, end: usize) -> Vec<Channel> {
+        self.rows(header, end, Wanted::ALL).channels(header)
+    }
+
+    /// The rows before `end`.
+    fn rows(&self, header: &Header, end: usize, wanted: Wanted) -> Rows {
+        let mut rows = Rows::new(self.separator, self.decimal, self.width, header, wanted);
+        rows.expect(end - self.first);
+        for row in (self.first..end).filter(|row| !is_skipped(self.lines[*row])) {
+            rows.take(self.lines[row], row + 1);
         }
-        let mut channels = Vec::with_capacity(self.width);
-        for (k, column) in columns.into_iter().enumerate() {
-            let name = header.names.get(k).cloned().unwrap_or_default();
-            let unit = header.units.get(k).cloned().flatten();
-            column.push_channels(name, unit, &mut channels);
-        }
-        channels
+        rows
     }
 
     /// One row for each signal, with its name in the first cell or without a name.
@@ -151,4 +141,42 @@ impl Table<'_> {
             notes: Vec::new(),
         }
     }
+}
+
+/// Reads the rows of a table in the rest of a text; what is left out is noted.
+fn go_on(rows: &mut Rows, mut rest: Rest) -> Result<Option<String>, FormatError> {
+    // The first line that is no row, and those from it on.
+    let mut after: Option<(usize, String)> = None;
+    let mut lines_after = 0;
+    while let Some((row, line, ends)) = rest.next()? {
+        if is_skipped(&line) {
+            continue;
+        }
+        if after.is_none() {
+            if !ends && rows.separator.cells(&line).count() < rows.width() {
+                return Ok(Some(incomplete(row)));
+            }
+            if rows.take_if_row(&line, row) {
+                continue;
+            }
+            after = Some((row, line.into_owned()));
+        }
+        lines_after += 1;
+        if lines_after > LAST_LINES
+            && let Some((row, line)) = &after
+        {
+            return Err(more_follows(*row, line));
+        }
+    }
+    Ok(None)
+}
+
+fn incomplete(row: usize) -> String {
+    format!("row {row} is incomplete and left out")
+}
+
+fn more_follows(row: usize, line: &str) -> FormatError {
+    let text: String = line.trim().chars().take(40).collect();
+    let reason = format!("the table of numbers ends at \"{text}\", and more follows");
+    FormatError::content(format!("row {row}"), reason)
 }

@@ -2,9 +2,10 @@
 
 use std::collections::VecDeque;
 
+use lissom_formats::PlainDecimal;
+
 use super::log_columns::ColumnRef;
 use super::log_error::LogError;
-use super::plain_decimal::PlainDecimal;
 use crate::nearest::nearest;
 
 /// Separator of cells.

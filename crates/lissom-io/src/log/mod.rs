@@ -29,7 +29,6 @@ mod one_clock;
 mod other_format;
 #[cfg(test)]
 mod other_format_tests;
-mod plain_decimal;
 mod plain_log;
 mod plain_row;
 mod read_log;

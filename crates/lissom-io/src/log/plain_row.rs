@@ -1,7 +1,8 @@
 //! A row of plain numbers, read in one pass: most rows are such. Others are read cell by cell.
 
+use lissom_formats::PlainDecimal;
+
 use super::log_layout::Delimiter;
-use super::plain_decimal::PlainDecimal;
 
 /// How the rows of a log are written, and which columns are read.
 pub(super) struct PlainRow {

@@ -2,12 +2,13 @@
 
 /// A number with at most 15 digits, so that one division of two exact numbers gives the nearest value.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(super) struct PlainDecimal {
-    pub(super) value: f64,
+pub struct PlainDecimal {
+    /// The number.
+    pub value: f64,
     /// Digits after the point.
-    pub(super) decimals: usize,
+    pub decimals: usize,
     /// Number of its characters.
-    pub(super) length: usize,
+    pub length: usize,
 }
 
 /// Numbers up to here, divided by an exact power of ten, are the nearest to what is written.
@@ -22,9 +23,16 @@ const TENS: [f64; MOST_DIGITS + 1] = [
 ];
 
 impl PlainDecimal {
+    /// A text that is such a number, with this decimal sign.
+    pub(crate) fn value_of(text: &str, point: u8) -> Option<f64> {
+        Self::leading(text.as_bytes(), point)
+            .filter(|of| of.length == text.len())
+            .map(|of| of.value)
+    }
+
     /// The number at the beginning of a text, with this decimal sign.
     #[inline]
-    pub(super) fn leading(text: &[u8], point: u8) -> Option<Self> {
+    pub fn leading(text: &[u8], point: u8) -> Option<Self> {
         let negative = text.first() == Some(&b'-');
         let mut rest = &text[usize::from(negative)..];
         let (mut digits, mut count) = (0_u64, 0);
