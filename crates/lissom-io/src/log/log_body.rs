@@ -43,7 +43,7 @@ impl<'a> Body<'a> {
         has_time: bool,
         holds: Vec<Hold>,
         options: &LogOptions,
-        columns: &[Vec<f64>],
+        columns: &[&[f64]],
     ) -> Result<Log, LogError> {
         let mut body = Body {
             file,
@@ -62,7 +62,9 @@ impl<'a> Body<'a> {
             thinner: Thinner::new(holds, options.max_rows),
             count: 0,
         };
-        for row in 0..columns.first().map_or(0, Vec::len) {
+        let rows = columns.first().map_or(0, |column| column.len());
+        body.expect(rows);
+        for row in 0..rows {
             body.values.clear();
             body.values.extend(columns.iter().map(|column| column[row]));
             body.push(row + 1)?;

@@ -1,9 +1,10 @@
 //! Logs that are not plain text with a header: read by `lissom_formats`, and brought onto one clock.
 
+use std::borrow::Cow;
 use std::path::Path;
 
 use lissom_core::record::Hold;
-use lissom_formats::{Channel, Clock, Format, FormatError, LogData, bare_name};
+use lissom_formats::{Clock, Format, FormatError, LogData, bare_name};
 
 use super::groups::groups;
 use super::log_body::Body;
@@ -80,7 +81,8 @@ pub(super) fn of_data(
     };
     let labels = wanted.iter().map(ToString::to_string).collect();
     let holds = time.map(|_| Hold::Measured).into_iter().chain(holds).collect();
-    Body::of_columns(file, labels, time.is_some(), holds, options, &rows)
+    let columns: Vec<&[f64]> = rows.iter().map(|column| &column[..]).collect();
+    Body::of_columns(file, labels, time.is_some(), holds, options, &columns)
 }
 
 /// The index of the channel asked for: by its name, by the end of its path, or by its number.
@@ -125,49 +127,47 @@ pub(super) fn place(file: &str, wanted: &ColumnRef, data: &LogData) -> Result<us
 }
 
 /// The columns with the same rows, time first if it is asked for; `None` if they cannot be brought onto one clock.
-fn rows(
-    data: &LogData,
+fn rows<'a>(
+    data: &'a LogData,
     time: Option<usize>,
     places: &[usize],
     holds: &[Hold],
-) -> Option<Vec<Vec<f64>>> {
-    let channel = |k: usize| &data.channels[k];
+) -> Option<Vec<Cow<'a, [f64]>>> {
+    let values = |k: usize| &data.channels[k].values[..];
+    let borrowed = |columns: Vec<&'a [f64]>| columns.into_iter().map(Cow::Borrowed).collect();
     let Some(time) = time else {
-        return leading_cut(places.iter().map(|k| channel(*k).values.clone()).collect());
+        return leading_cut(places.iter().map(|k| values(*k)).collect()).map(borrowed);
     };
-    let stamps = |c: &Channel| -> Option<Vec<f64>> {
-        match c.clock {
-            Clock::Channel(k) => Some(channel(k).values.clone()),
-            Clock::Unstated => Some(channel(time).values.clone()),
+    let stamps = |k: usize| -> Option<&'a [f64]> {
+        match data.channels[k].clock {
+            Clock::Channel(k) => Some(values(k)),
+            Clock::Unstated => Some(values(time)),
             Clock::Even { .. } => None,
         }
-        .filter(|stamps| stamps.len() == c.values.len())
+        .filter(|stamps| stamps.len() == values(k).len())
     };
-    let series: Vec<(Vec<f64>, &[f64])> = places
-        .iter()
-        .map(|k| Some((stamps(channel(*k))?, &channel(*k).values[..])))
-        .collect::<Option<_>>()?;
-    let same = series.iter().all(|(stamps, _)| *stamps == series[0].0);
-    if same {
-        let mut all = vec![series[0].0.clone()];
-        all.extend(series.iter().map(|(_, values)| values.to_vec()));
-        if let Some(rows) = leading_cut(all) {
-            return Some(rows);
+    let series: Vec<(&[f64], &[f64])> =
+        places.iter().map(|k| Some((stamps(*k)?, values(*k)))).collect::<Option<_>>()?;
+    let first = series.first()?.0;
+    if series.iter().all(|(stamps, _)| std::ptr::eq(*stamps, first) || *stamps == first) {
+        let all = std::iter::once(first).chain(series.iter().map(|(_, values)| *values));
+        if let Some(rows) = leading_cut(all.collect()) {
+            return Some(borrowed(rows));
         }
     }
     let series: Vec<Series> =
-        series.into_iter().zip(holds).map(|((t, v), hold)| Series::of(&t, v, *hold)).collect();
-    on_one_clock(&series)
+        series.into_iter().zip(holds).map(|((t, v), hold)| Series::of(t, v, *hold)).collect();
+    on_one_clock(&series).map(|columns| columns.into_iter().map(Cow::Owned).collect())
 }
 
 /// Cuts the leading rows in which a value is missing; `None` if values are missing later.
-fn leading_cut(columns: Vec<Vec<f64>>) -> Option<Vec<Vec<f64>>> {
+fn leading_cut(columns: Vec<&[f64]>) -> Option<Vec<&[f64]>> {
     let rows = columns.first()?.len();
     if columns.iter().any(|c| c.len() != rows) {
         return None;
     }
-    let missing = |column: &Vec<f64>| column.iter().take_while(|v| v.is_nan()).count();
+    let missing = |column: &&[f64]| column.iter().take_while(|v| v.is_nan()).count();
     let first = columns.iter().map(missing).max()?;
-    let cut: Vec<Vec<f64>> = columns.into_iter().map(|c| c[first..].to_vec()).collect();
-    cut.iter().flatten().all(|v| v.is_finite()).then_some(cut)
+    let cut: Vec<&[f64]> = columns.into_iter().map(|c| &c[first..]).collect();
+    cut.iter().all(|column| column.iter().all(|v| v.is_finite())).then_some(cut)
 }
