@@ -20,7 +20,7 @@
 //! | MATLAB v7.3 (feature `hdf5`) | as the earlier versions |
 //! | HDF5 (feature `hdf5`) | datasets of numbers with the path of their groups, compound types by field, units in attributes |
 //! | MCAP (feature `mcap`) | messages of ROS 2 and in JSON: each number of a topic, with its clock |
-//! | Excel `.xlsx` (feature `xlsx`) | the sheet with the longest block of numbers, with its header and its row of units |
+//! | Excel `.xlsx` (feature `xlsx`) | the sheet with the longest block of numbers, and those with the same columns; header and row of units |
 //! | Parquet (feature `parquet`) | columns of numbers and of structs of numbers; times are seconds |
 //!
 //! Complex numbers are two channels, `NAME/real` and `NAME/imag`.
@@ -60,6 +60,7 @@ mod tdms;
 mod text;
 mod uff58;
 mod unit;
+mod words;
 mod wpilog;
 #[cfg(feature = "xlsx")]
 mod xlsx;
@@ -72,3 +73,4 @@ pub use log_data::{Channel, Clock, LogData};
 pub use plain_decimal::PlainDecimal;
 pub use read::{is_no_plain_table, read, read_bytes, read_channels, read_with};
 pub use read_options::ReadOptions;
+pub use words::Words;

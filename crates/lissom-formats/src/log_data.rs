@@ -2,6 +2,7 @@
 
 use crate::format::Format;
 use crate::unit;
+use crate::words::Words;
 
 /// The content of a log file.
 #[derive(Debug, Clone, PartialEq)]
@@ -64,6 +65,8 @@ pub struct Channel {
     /// The first cell that is not a number: its row, counted from 1 as an editor does (0 if the format has no rows), and
     /// its text.
     pub not_a_number: Option<(usize, String)>,
+    /// Its words, if it has such in place of numbers.
+    pub words: Option<Words>,
 }
 
 /// When the values of a [`Channel`] were measured.
@@ -85,7 +88,14 @@ pub enum Clock {
 impl Channel {
     /// A channel of numbers, without a unit, on an unstated clock.
     pub(crate) fn of(name: impl Into<String>, values: Vec<f64>) -> Self {
-        Self { name: name.into(), unit: None, values, clock: Clock::Unstated, not_a_number: None }
+        Self {
+            name: name.into(),
+            unit: None,
+            values,
+            clock: Clock::Unstated,
+            not_a_number: None,
+            words: None,
+        }
     }
 
     /// Takes the unit in its name, if it has no other one.

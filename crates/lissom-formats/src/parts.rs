@@ -1,4 +1,6 @@
-//! Parts of a log file that are runs of their own: groups of channels, and rows with the same number in a channel.
+//! Parts of a log file that are runs of their own: groups of channels, and rows with the same value in a channel.
+
+use std::collections::HashMap;
 
 use crate::log_data::{Channel, Clock, LogData};
 
@@ -55,52 +57,71 @@ impl LogData {
         Self { format: self.format, channels: Vec::new(), decimal_comma, notes }
     }
 
-    /// The rows with the same number in a channel, such as the number of the trial, in the order in which the numbers
-    /// appear. Channels of another length are left out. `None` if the channel is missing or has more than 10,000
-    /// different numbers.
+    /// The rows with the same value in a channel, such as the number or the name of the trial, in the order in which the
+    /// values appear. Channels of another length are left out. `None` if the channel is missing or has more than 10,000
+    /// different values.
     #[must_use]
-    pub fn by_number(&self, channel: usize) -> Option<Vec<(f64, Self)>> {
-        let numbers = &self.channels.get(channel)?.values;
-        let mut found: Vec<(f64, Vec<usize>)> = Vec::new();
-        let mut last = 0;
-        for (row, number) in numbers.iter().enumerate().filter(|(_, n)| n.is_finite()) {
-            let same = |part: &(f64, Vec<usize>)| part.0.total_cmp(number).is_eq();
-            if !found.get(last).is_some_and(same) {
-                last = found.iter().position(same).unwrap_or(found.len());
-            }
-            let is_full = found.len() == MOST_PARTS;
-            match found.get_mut(last) {
-                Some((_, rows)) => rows.push(row),
-                None if is_full => return None,
-                None => found.push((*number, vec![row])),
-            }
-        }
-        let part = |(number, rows): (f64, Vec<usize>)| {
-            let places: Vec<usize> = (0..self.channels.len())
-                .filter(|k| self.channels[*k].values.len() == numbers.len())
-                .collect();
-            let of_rows = |k: &usize| {
-                let whole = &self.channels[*k];
-                let clock = match whole.clock {
-                    Clock::Channel(clock) => places
-                        .iter()
-                        .position(|k| *k == clock)
-                        .map_or(Clock::Unstated, Clock::Channel),
-                    clock => clock,
-                };
-                Channel {
-                    name: whole.name.clone(),
-                    unit: whole.unit.clone(),
-                    values: rows.iter().map(|row| whole.values[*row]).collect(),
-                    clock,
-                    not_a_number: whole.not_a_number.clone(),
-                }
+    pub fn by_value(&self, channel: usize) -> Option<Vec<(String, Self)>> {
+        let channel = self.channels.get(channel)?;
+        let rows = channel.values.len();
+        let number = |row: usize| Some(channel.values[row]).filter(|value| value.is_finite());
+        let mut places: HashMap<Key, usize> = HashMap::new();
+        let mut found: Vec<(String, Vec<usize>)> = Vec::new();
+        for row in 0..rows {
+            let key = match &channel.words {
+                Some(words) => words.at(row).map(Key::Word),
+                None => number(row).map(|value| Key::Number(value.to_bits())),
             };
-            let channels = places.iter().map(of_rows).collect();
-            (number, Self { channels, ..self.without_channels() })
-        };
+            let Some(key) = key else { continue };
+            let place = *places.entry(key).or_insert_with(|| {
+                let name = match key {
+                    Key::Word(word) => word.to_owned(),
+                    Key::Number(bits) => f64::from_bits(bits).to_string(),
+                };
+                found.push((name, Vec::new()));
+                found.len() - 1
+            });
+            if found.len() > MOST_PARTS {
+                return None;
+            }
+            found[place].1.push(row);
+        }
+        let part = |(name, part): (String, Vec<usize>)| (name, self.of_rows(&part, rows));
         Some(found.into_iter().map(part).collect())
     }
+
+    /// Some of the rows of the channels with so many rows.
+    fn of_rows(&self, part: &[usize], rows: usize) -> Self {
+        let has_rows = |k: &usize| self.channels[*k].values.len() == rows;
+        let places: Vec<usize> = (0..self.channels.len()).filter(has_rows).collect();
+        let channel = |k: &usize| {
+            let whole = &self.channels[*k];
+            let clock = match whole.clock {
+                Clock::Channel(clock) => {
+                    let place = places.iter().position(|k| *k == clock);
+                    place.map_or(Clock::Unstated, Clock::Channel)
+                }
+                clock => clock,
+            };
+            Channel {
+                name: whole.name.clone(),
+                unit: whole.unit.clone(),
+                values: part.iter().map(|row| whole.values[*row]).collect(),
+                clock,
+                not_a_number: whole.not_a_number.clone(),
+                words: whole.words.as_ref().map(|words| words.of_rows(part)),
+            }
+        };
+        Self { channels: places.iter().map(channel).collect(), ..self.without_channels() }
+    }
+}
+
+/// The value of a row in a channel.
+#[derive(Clone, Copy, PartialEq, Eq, Hash)]
+enum Key<'a> {
+    Word(&'a str),
+    /// The bits of a number.
+    Number(u64),
 }
 
 /// The group that a name is in, and the name within it.
@@ -137,6 +158,7 @@ fn within<'a>(group: &str, rest: &'a str) -> Option<&'a str> {
 mod tests {
     use super::*;
     use crate::format::Format;
+    use crate::words::WordsBuilder;
 
     fn data(channels: &[(&str, &[f64])]) -> LogData {
         let channels = channels.iter().map(|(name, v)| Channel::of(*name, v.to_vec())).collect();
@@ -182,12 +204,20 @@ mod tests {
     }
 
     #[test]
-    fn rows_of_the_same_number() {
-        let log =
+    fn rows_of_the_same_value() {
+        let mut log =
             data(&[("n", &[2.0, 1.0, 2.0, f64::NAN, 1.0]), ("q", &[0.0, 1.0, 2.0, 3.0, 4.0])]);
-        let parts = log.by_number(0).unwrap();
-        assert_eq!(parts.iter().map(|(n, _)| *n).collect::<Vec<_>>(), [2.0, 1.0]);
-        assert_eq!(parts[0].1.channels[1].values, [0.0, 2.0]);
-        assert_eq!(parts[1].1.channels[1].values, [1.0, 4.0]);
+        let values = |log: &LogData| -> Vec<(String, Vec<f64>)> {
+            let parts = log.by_value(0).unwrap();
+            parts.into_iter().map(|(n, part)| (n, part.channels[1].values.clone())).collect()
+        };
+        let of = |name: &str, rows: &[f64]| (name.to_owned(), rows.to_vec());
+        assert_eq!(values(&log), [of("2", &[0.0, 2.0]), of("1", &[1.0, 4.0])]);
+        let mut words = WordsBuilder::default();
+        for (row, word) in [(0, "cw"), (1, "ccw"), (4, "cw")] {
+            words.push(row, word);
+        }
+        log.channels[0].words = words.finish(5);
+        assert_eq!(values(&log), [of("cw", &[0.0, 4.0]), of("ccw", &[1.0])]);
     }
 }

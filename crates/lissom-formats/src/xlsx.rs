@@ -1,4 +1,5 @@
-//! Excel workbooks (`.xlsx`, `.xlsm`): the sheet with the longest block of numbers, read as a table of text.
+//! Excel workbooks (`.xlsx`, `.xlsm`): the sheet with the longest block of numbers, read as a table of text. If others have
+//! the same columns, all of these are read, as `sheet/column`.
 //!
 //! Dates are seconds from the first one, blank cells and errors are NaN.
 
@@ -13,7 +14,7 @@ use crate::collected::Collected;
 use crate::format::Format;
 use crate::format_error::FormatError;
 use crate::guard::guarded;
-use crate::log_data::LogData;
+use crate::log_data::{Channel, Clock, LogData};
 use crate::text::find_in_tabs;
 use crate::zip::Entry;
 
@@ -40,45 +41,65 @@ fn damaged(error: calamine::XlsxError) -> FormatError {
 
 fn of_sheets(bytes: &[u8], found: &mut Collected) -> Result<LogData, FormatError> {
     let mut workbook = Xlsx::new(Cursor::new(bytes)).map_err(damaged)?;
-    let mut best: (usize, Option<Sheet>) = (0, None);
-    let mut names = Vec::new();
+    let mut tables: Vec<(usize, String, Result<LogData, FormatError>)> = Vec::new();
+    let mut others = Vec::new();
     for name in workbook.sheet_names() {
         // Sheets of charts have no cells.
         let Some(sheet) = sheet(&mut workbook, &name, found)? else { continue };
-        if sheet.text.is_empty() {
-            continue;
-        }
-        let rows = find_in_tabs(&sheet.text).map_or(0, |table| table.end - table.first);
-        if rows > best.0 {
-            best = (rows, Some(sheet));
-        }
-        names.push(name);
-    }
-    let (_, best) = best;
-    let Sheet { name, text, dates } = best.ok_or(FormatError::NoTable)?;
-    let text = padded(&text, find_in_tabs(&text).map_or(0, |table| table.width));
-    let table = find_in_tabs(&text).ok_or(FormatError::NoTable)?;
-    let mut data = table.read(None, Wanted::ALL, None).map_err(|error| match error {
-        FormatError::Content { place, reason } => {
-            FormatError::content(format!("sheet {name}, {place}"), reason)
-        }
-        other => other,
-    })?;
-    if data.format == Format::Text {
-        data.format = Format::Xlsx;
-        let columns = data.channels.iter_mut().enumerate();
-        for (_, channel) in columns.filter(|(column, _)| dates.contains(column)) {
-            round_dates(&mut channel.values);
+        match find_in_tabs(&sheet.text).map_or(0, |table| table.end - table.first) {
+            _ if sheet.text.is_empty() => {}
+            0 => others.push(name),
+            rows => tables.push((rows, name, sheet.read())),
         }
     }
-    names.retain(|other| *other != name);
-    if !names.is_empty() {
-        data.notes.push(format!(
-            "sheet {name} is read, with the longest block of numbers, and not {}",
-            names.join(", ")
-        ));
+    let longest = tables.iter().enumerate().rev().max_by_key(|(_, (rows, ..))| *rows);
+    let longest = longest.map(|(k, _)| k).ok_or(FormatError::NoTable)?;
+    let names = |found: &Result<LogData, FormatError>| -> Option<Vec<String>> {
+        let names = found.as_ref().ok()?.channels.iter().map(|c| c.name.clone());
+        Some(names.collect())
+    };
+    let of_longest = names(&tables[longest].2);
+    // Sheets with the same columns are probably runs.
+    let (alike, rest): (Vec<_>, Vec<_>) = tables
+        .into_iter()
+        .enumerate()
+        .partition(|(k, (.., found))| *k == longest || names(found) == of_longest);
+    others.extend(rest.into_iter().map(|(_, (_, name, _))| name));
+    let mut all: Option<LogData> = None;
+    let several = alike.len() > 1;
+    for (_, (_, sheet, found)) in alike {
+        let found = found?;
+        if !several {
+            let mut found = found;
+            if !others.is_empty() {
+                found.notes.push(format!(
+                    "sheet {sheet} is read, with the longest block of numbers, and not {}",
+                    others.join(", ")
+                ));
+            }
+            return Ok(found);
+        }
+        let all = all.get_or_insert_with(|| LogData { channels: Vec::new(), ..found.clone() });
+        append(&mut all.channels, &sheet, found.channels);
     }
-    Ok(data)
+    let mut all = all.ok_or(FormatError::NoTable)?;
+    if !others.is_empty() {
+        all.notes.push(format!("sheets that are left out: {}", others.join(", ")));
+    }
+    Ok(all)
+}
+
+/// Appends the channels of a sheet, with its name before theirs.
+fn append(channels: &mut Vec<Channel>, sheet: &str, of_sheet: Vec<Channel>) {
+    let before = channels.len();
+    channels.extend(of_sheet.into_iter().map(|channel| Channel {
+        name: format!("{sheet}/{}", channel.name),
+        clock: match channel.clock {
+            Clock::Channel(k) => Clock::Channel(before + k),
+            clock => clock,
+        },
+        ..channel
+    }));
 }
 
 /// The text with blank cells at the ends of rows, so that a header may lack the last names.
@@ -102,6 +123,28 @@ struct Sheet {
     text: String,
     /// The columns with dates, which have a resolution of a microsecond.
     dates: HashSet<usize>,
+}
+
+impl Sheet {
+    /// Its channels.
+    fn read(&self) -> Result<LogData, FormatError> {
+        let text = padded(&self.text, find_in_tabs(&self.text).map_or(0, |table| table.width));
+        let table = find_in_tabs(&text).ok_or(FormatError::NoTable)?;
+        let mut data = table.read(None, Wanted::ALL, None).map_err(|error| match error {
+            FormatError::Content { place, reason } => {
+                FormatError::content(format!("sheet {}, {place}", self.name), reason)
+            }
+            other => other,
+        })?;
+        if data.format == Format::Text {
+            data.format = Format::Xlsx;
+            let columns = data.channels.iter_mut().enumerate();
+            for (_, channel) in columns.filter(|(column, _)| self.dates.contains(column)) {
+                round_dates(&mut channel.values);
+            }
+        }
+        Ok(data)
+    }
 }
 
 /// The cells of a sheet; `None` if it has none.

@@ -31,3 +31,17 @@ fn a_build_without_the_feature_names_a_workbook() {
     assert!(error.to_string().starts_with("is an Excel workbook"), "{error}");
     assert!(error.hint().contains("--features full"), "{}", error.hint());
 }
+
+#[test]
+#[cfg(feature = "xlsx")]
+fn sheets_with_the_same_columns_are_groups() {
+    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/files/sheet_of_each_run.xlsx");
+    let found = read(&path).unwrap();
+    let channels: Vec<(&str, usize)> =
+        found.channels.iter().map(|c| (c.name.as_str(), c.values.len())).collect();
+    let expected =
+        [("Run 1/t [s]", 14), ("Run 1/q [rad]", 14), ("Run 2/t [s]", 17), ("Run 2/q [rad]", 17)];
+    assert_eq!(channels, expected);
+    assert_eq!(found.notes.last().unwrap(), "sheets that are left out: info");
+    assert_eq!(found.groups("Run *").len(), 2);
+}

@@ -15,7 +15,7 @@ pub(crate) struct LogArgs {
     /// Sample time of logs without time stamps, e.g. "1 ms"
     #[arg(long, value_name = "TIME", value_parser = time_text)]
     sample_time: Option<String>,
-    /// Column with the number of the run, if a log has several
+    /// Column with the number or name of the run, if a log has several
     #[arg(long, value_name = "COLUMN")]
     run: Option<String>,
     /// Row of a text with the names, from 1 [default: found]

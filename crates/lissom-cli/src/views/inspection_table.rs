@@ -134,6 +134,13 @@ fn remarks(log: &Inspection, channel: &InspectedChannel) -> Vec<String> {
     let label = channel.label();
     let percent = |share: f64| format!("{} %", trimmed(100.0 * share, 2));
     let mut all = Vec::new();
+    if log
+        .labels
+        .as_ref()
+        .is_some_and(|labels| log.channels[labels.channel].number == channel.number)
+    {
+        return all;
+    }
     if let Some((row, found)) = &channel.not_a_number {
         let place = if *row > 0 { format!(" in row {row}") } else { String::new() };
         all.push(format!("{label}: \"{found}\"{place} is not a number"));

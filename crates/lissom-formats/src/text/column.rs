@@ -3,6 +3,7 @@
 use super::cells::{Cell, Decimal};
 use super::stamps::{DAY_S, HALF_DAY_S, Stamp};
 use crate::log_data::{Channel, Clock};
+use crate::words::WordsBuilder;
 
 /// A column that is being read.
 pub(crate) struct Column {
@@ -14,12 +15,20 @@ pub(crate) struct Column {
     /// A time of day that goes back by more than half a day passed midnight.
     last_s: f64,
     not_a_number: Option<(usize, String)>,
+    words: WordsBuilder,
 }
 
 impl Column {
     pub(crate) fn new(rows: usize) -> Self {
         let values = Vec::with_capacity(rows);
-        Self { values, imaginary: Vec::new(), first: None, last_s: 0.0, not_a_number: None }
+        Self {
+            values,
+            imaginary: Vec::new(),
+            first: None,
+            last_s: 0.0,
+            not_a_number: None,
+            words: WordsBuilder::default(),
+        }
     }
 
     /// Makes room for so many rows.
@@ -29,7 +38,12 @@ impl Column {
 
     pub(crate) fn take(&mut self, cell: &str, decimal: Decimal, row: usize) {
         let value = match Cell::of(cell, decimal) {
-            Cell::Number(value) => value,
+            Cell::Number(value) => {
+                if !self.words.is_empty() {
+                    self.words.push(self.values.len(), cell);
+                }
+                value
+            }
             Cell::Complex([real, imag]) => {
                 self.imaginary.resize(self.values.len(), 0.0);
                 self.imaginary.push(imag);
@@ -45,7 +59,14 @@ impl Column {
             }
             Cell::Blank => f64::NAN,
             Cell::Words => {
-                self.not_a_number.get_or_insert_with(|| (row, cell.chars().take(40).collect()));
+                if self.not_a_number.is_none() {
+                    self.not_a_number = Some((row, cell.chars().take(40).collect()));
+                    for (k, value) in self.values.iter().enumerate().filter(|(_, v)| v.is_finite())
+                    {
+                        self.words.push(k, &value.to_string());
+                    }
+                }
+                self.words.push(self.values.len(), cell);
                 f64::NAN
             }
         };
@@ -54,8 +75,9 @@ impl Column {
 
     pub(crate) fn channel(self, name: String, unit: Option<String>) -> Channel {
         let unit = if self.first.is_some() { Some("s".to_owned()) } else { unit };
-        let Self { values, not_a_number, .. } = self;
-        Channel { unit, not_a_number, ..Channel::of(name, values) }
+        let Self { values, not_a_number, words, .. } = self;
+        let words = words.finish(values.len());
+        Channel { unit, not_a_number, words, ..Channel::of(name, values) }
     }
 
     /// Appends its channel, or two if it has complex numbers: `NAME/real` and `NAME/imag`.

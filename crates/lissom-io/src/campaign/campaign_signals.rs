@@ -17,7 +17,7 @@ pub(super) struct Signals {
     pub(super) header_row: Option<usize>,
     /// Rows at the top of a log that do not count.
     pub(super) skip_rows: usize,
-    /// The column with the number of the run, if a log has several.
+    /// The column with the number or name of the run, if a log has several.
     pub(super) run: Option<ColumnRef>,
     pub(super) axis: Axis,
     pub(super) command: CommandSource,

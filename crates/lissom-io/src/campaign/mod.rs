@@ -8,7 +8,7 @@
 //! speed   = { column = "omega_m", unit = "rpm" }   # optional: is compared with the angle
 //! tips    = [{ name = "tip", column = "theta_t", unit = "rad" }]
 //! decimal = ","                             # absent: a point
-//! run     = "trial"                         # optional: column with the number of the run, if a log has several
+//! run     = "trial"                         # optional: column with the number or name of the run, if a log has several
 //! [drive]
 //! torque_constant = "2.184 lbf*in/A"
 //! current_limit = "4.12 A"

@@ -42,6 +42,27 @@ fn a_column_numbers_the_runs() {
 }
 
 #[test]
+fn a_column_of_words_names_the_runs_or_the_joints() {
+    let mut text = String::from("joint,t,i,q\n");
+    for row in 0..300 {
+        let (joint, k) = (["elbow", "wrist"][row % 2], row / 2);
+        let _ = writeln!(text, "{joint},{:.3},{k},{}", 0.002 * k as f64, row);
+    }
+    let campaign = format!("{HEAD}{MOTOR}[[runs]]\nfile = \"a.csv::joint=wrist\"\n");
+    let file = read_logs(&campaign, &[("a.csv", &text)]).unwrap();
+    let [wrist] = &file.campaign.runs[..] else { panic!("one run") };
+    assert_eq!((wrist.name(), wrist.len()), ("a.csv::joint=wrist", 150));
+    assert!((wrist.motor()[3] - 7.0).abs() < 1e-9);
+    let error = read_logs(&campaign.replace("wrist", "ankle"), &[("a.csv", &text)]).unwrap_err();
+    let error = error.to_string();
+    assert!(error.ends_with("the groups are \"joint=elbow\", \"joint=wrist\""), "{error}");
+    let both = format!("{HEAD}{MOTOR}run = \"joint\"\n[[runs]]\nfile = \"a.csv\"\n");
+    let file = read_logs(&both, &[("a.csv", &text)]).unwrap();
+    let names: Vec<&str> = file.campaign.runs.iter().map(|run| run.name()).collect();
+    assert_eq!(names, ["a.csv joint elbow", "a.csv joint wrist"]);
+}
+
+#[test]
 fn a_group_that_does_not_exist_is_named_with_those_that_do() {
     let campaign = format!("{HEAD}{MOTOR}[[runs]]\nfile = \"a.csv::run1\"\n");
     let text = table("t,i,q", (0..100).map(|k| [0.01 * f64::from(k), 1.0, 2.0]));

@@ -11,6 +11,7 @@ use super::own_log::OwnLog;
 use super::picks::{Picked, Picks};
 use super::relations::Relation;
 use super::roles::Role;
+use super::row_labels::LabelOrder;
 use super::stated_unit::UnitSource;
 use super::user_choice::{Choice, CommandKey, quoted};
 use super::words::{commanded, words};
@@ -24,7 +25,7 @@ pub struct Description {
     pub time: Option<Choice>,
     /// The sample time of logs without stamps, as in "1 ms".
     pub sample_time: Option<String>,
-    /// The column with the number of the run, if a log has several.
+    /// The column with the number or name of the run, if a log has several.
     pub run: Option<String>,
     /// The command.
     pub command: Option<(CommandKey, Choice)>,
@@ -251,10 +252,31 @@ impl Signals<'_> {
     }
 
     fn run(&self) -> Result<Option<Line>, DraftError> {
-        let Some(column) = &self.said.run else { return Ok(None) };
+        let Some(column) = &self.said.run else { return Ok(self.labels()) };
         let choice = Choice { column: column.clone(), unit: None, keys: Vec::new() };
         let channel = self.picks.named(&choice)?.channel;
         Ok(Some(Line::said(format!("run = {}", self.picks.column(channel)))))
+    }
+
+    /// The line for the column that tells the rows of a log apart.
+    fn labels(&self) -> Option<Line> {
+        let labels = self.log.labels.as_ref()?;
+        let channel = &self.log.channels[labels.channel];
+        match labels.order {
+            LabelOrder::Restarts => Some(Line::taken(
+                format!("run = {}", self.picks.column(channel)),
+                format!("the time starts again with each of its {} values", labels.values.len()),
+            )),
+            LabelOrder::Blocks => None,
+            LabelOrder::InTurn => Some(Line::missing(
+                "run = ?",
+                DraftError::RowsInTurn {
+                    file: self.log.file.display().to_string(),
+                    column: channel.label(),
+                    values: labels.values.clone(),
+                },
+            )),
+        }
     }
 
     fn command(&self) -> Result<Line, DraftError> {

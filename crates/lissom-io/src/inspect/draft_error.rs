@@ -3,6 +3,7 @@
 use thiserror::Error;
 
 use super::roles::Role;
+use super::row_labels::RowLabels;
 use crate::units::UnitError;
 
 /// Why no campaign can be made of a log and what the user says.
@@ -87,6 +88,16 @@ pub enum DraftError {
         unit: String,
         /// Its unit in the first log, in words.
         of_first: String,
+    },
+    /// The rows are of several joints.
+    #[error("{file}: {}", RowLabels::in_turn(.column, .file, .values))]
+    RowsInTurn {
+        /// The log.
+        file: String,
+        /// The column that tells them apart.
+        column: String,
+        /// Its values.
+        values: Vec<String>,
     },
     /// Several things are missing.
     #[error("{file}: {}", joined(.file, .missing))]
@@ -190,7 +201,7 @@ impl DraftError {
     /// What the user can do.
     pub fn hint(&self) -> Option<String> {
         match self {
-            Self::NoLog | Self::OwnLog { .. } => None,
+            Self::NoLog | Self::OwnLog { .. } | Self::RowsInTurn { .. } => None,
             Self::OtherUnit { .. } => Some(
                 "identify logs with different units apart, or bring them to the same units"
                     .to_owned(),

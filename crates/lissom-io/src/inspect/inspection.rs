@@ -11,6 +11,7 @@ use super::draft_error::DraftError;
 use super::inspected_channel::InspectedChannel;
 use super::relations::{MOST_CHANNELS, Relation, relation};
 use super::roles::{Guess, Role, Roles, looks_like_time};
+use super::row_labels::RowLabels;
 use super::stated_unit::{StatedUnit, stated_unit};
 use crate::io_error::Error;
 use crate::log::{LogPath, alike_groups};
@@ -31,6 +32,8 @@ pub struct Inspection {
     pub channels: Vec<InspectedChannel>,
     /// The clock that most channels use, or that the time stamps give.
     pub clock: Option<ClockFacts>,
+    /// The column that tells which run, or which joint, each row is of.
+    pub labels: Option<RowLabels>,
     /// Which channel is probably what.
     pub roles: Roles,
     /// What was left out while the file was read, and what does not agree, in words.
@@ -86,15 +89,19 @@ fn of_data(path: &Path, data: LogData) -> Inspection {
     let time = stamps.as_ref().map(|guess| guess.channel);
     relate(&mut channels, &data, time);
     let clock = time.and_then(|k| ClockFacts::of(&data.channels[k].values));
+    let labels = RowLabels::of(&data, &channels, time);
     let roles = Roles::guessed(&channels, stamps);
     let mut notes = data.notes.clone();
     notes.extend(contradictions(&channels, clock.as_ref(), time));
+    let file = path.display().to_string();
+    notes.extend(labels.iter().map(|found| found.note(&channels[found.channel].label(), &file)));
     Inspection {
         file: path.to_owned(),
         format: data.format,
         decimal_comma: data.decimal_comma,
         channels,
         clock,
+        labels,
         roles,
         notes,
         data,

@@ -15,6 +15,7 @@ mod own_log;
 mod picks;
 mod relations;
 mod roles;
+mod row_labels;
 mod stated_unit;
 mod user_choice;
 mod words;
@@ -31,5 +32,6 @@ pub use inspection_file::{
 pub use lissom_formats::ReadOptions as TextOptions;
 pub use relations::Relation;
 pub use roles::{Guess, Role, Roles};
+pub use row_labels::{LabelOrder, RowLabels};
 pub use stated_unit::{StatedUnit, UnitSource};
 pub use user_choice::{Choice, CommandKey};

@@ -184,10 +184,8 @@ pub enum LogError {
         /// The log of the run.
         file: String,
     },
-    /// A column that should number the runs has too many different numbers.
-    #[error(
-        "{file}: column {column} has more than 10,000 different numbers: it does not number runs"
-    )]
+    /// A column that should name the runs has too many different values.
+    #[error("{file}: column {column} has more than 10,000 different values: it does not name runs")]
     RunNumbers {
         /// The file.
         file: String,
@@ -465,7 +463,7 @@ impl LogError {
                 "check that both logs are of the same run, and `clock`: \"shared\" needs stamps of the same clock".to_owned()
             }
             Self::RunNumbers { .. } => {
-                "give the column with the number of the run or trial, which is the same in many rows".to_owned()
+                "give the column with the number or the name of the run or trial, which is the same in many rows".to_owned()
             }
             Self::ColumnNumber { .. } => "columns are counted from 1".to_owned(),
             Self::NotANumber { found, .. } if found.contains(',') => {

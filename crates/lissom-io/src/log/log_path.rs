@@ -21,7 +21,8 @@ pub(crate) fn of_run(name: &str, run: &Path) -> String {
     name.replace(RUN, &run.file_stem().map_or_else(String::new, |s| s.to_string_lossy().into()))
 }
 
-/// Where a log is: `FILE`, or `FILE::GROUP`, in which `*` stands for any text.
+/// Where a log is: `FILE`, or `FILE::GROUP`, in which `*` stands for any text; `FILE::COLUMN=VALUE` are the rows with this
+/// value in a column.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct LogPath {
     /// The file.
@@ -35,7 +36,7 @@ pub struct LogPath {
 pub struct LogPart {
     /// The file with the part, for messages.
     pub label: String,
-    /// What distinguishes the part: a group, or the number of a run with its column.
+    /// What distinguishes the part: a group, or the value of a column of runs, with its name.
     pub name: String,
     /// Its channels, with time stamps.
     pub data: Arc<LogData>,
@@ -80,7 +81,12 @@ impl LogPath {
         let Some(group) = &self.group else {
             return Ok(vec![LogPart { label: file, name: String::new(), data: Arc::new(data) }]);
         };
-        let found = data.groups(group);
+        let mut found = data.groups(group);
+        if found.is_empty()
+            && let Some((column, value)) = group.split_once('=')
+        {
+            found = rows_with(&file, &data, column.trim(), value.trim())?;
+        }
         if found.is_empty() {
             return Err(LogError::NoGroup { file, group: group.clone(), groups: groups(&data) });
         }
@@ -93,18 +99,37 @@ impl LogPath {
     }
 }
 
+/// The rows that have this value in a column, as `COLUMN=VALUE`.
+fn rows_with(
+    file: &str,
+    data: &LogData,
+    column: &str,
+    value: &str,
+) -> Result<Vec<(String, LogData)>, LogError> {
+    let channel = place(file, &ColumnRef::Name(column.to_owned()), data)?;
+    let Some(parts) = data.by_value(channel) else {
+        return Err(LogError::RunNumbers { file: file.to_owned(), column: column.to_owned() });
+    };
+    let is_value = |part: &(String, LogData)| {
+        part.0 == value || value.parse().is_ok_and(|number: f64| part.0.parse() == Ok(number))
+    };
+    let found: Vec<_> = parts.iter().filter(|part| is_value(part)).cloned().collect();
+    if found.is_empty() {
+        let values = parts.into_iter().map(|(value, _)| format!("{column}={value}")).collect();
+        let group = format!("{column}={value}");
+        return Err(LogError::NoGroup { file: file.to_owned(), group, groups: values });
+    }
+    Ok(found.into_iter().map(|(value, data)| (format!("{column}={value}"), data)).collect())
+}
+
 impl LogPart {
-    /// Its rows as one part for each number in a column.
+    /// Its rows as one part for each value in a column, a number or a word.
     ///
     /// # Errors
-    /// [`LogError::NoColumn`] and others if the column cannot be found; [`LogError::RunNumbers`] if it does not number runs.
+    /// [`LogError::NoColumn`] and others if the column cannot be found; [`LogError::RunNumbers`] if it does not name runs.
     pub(crate) fn by_run(&self, column: &ColumnRef) -> Result<Vec<Self>, LogError> {
         let channel = place(&self.label, column, &self.data)?;
-        if let Some((row, found)) = &self.data.channels[channel].not_a_number {
-            let (file, row, column) = (self.label.clone(), *row, column.to_string());
-            return Err(LogError::NotANumber { file, row, column, found: found.clone() });
-        }
-        let Some(found) = self.data.by_number(channel) else {
+        let Some(found) = self.data.by_value(channel) else {
             return Err(LogError::RunNumbers {
                 file: self.label.clone(),
                 column: column.to_string(),
@@ -114,13 +139,13 @@ impl LogPart {
             ColumnRef::Name(name) => name.clone(),
             ColumnRef::Number(_) => "run".to_owned(),
         };
-        let part = |(number, data): (f64, LogData)| {
-            let name = [&self.name[..], &format!("{word} {number}")]
+        let part = |(value, data): (String, LogData)| {
+            let name = [&self.name[..], &format!("{word} {value}")]
                 .into_iter()
                 .filter(|text| !text.is_empty())
                 .collect::<Vec<_>>()
                 .join(" ");
-            let label = format!("{} ({word} {number})", self.label);
+            let label = format!("{} ({word} {value})", self.label);
             Self { label, name, data: Arc::new(data) }
         };
         Ok(found.into_iter().map(part).collect())
