@@ -38,11 +38,11 @@ impl<'a> Wanted<'a> {
     }
 
     /// Whether all names asked for are among these: others may be of channels that are made of several ones.
-    pub(crate) fn are_all_in<'n>(self, names: impl Iterator<Item = &'n str> + Clone) -> bool {
+    pub(crate) fn are_all_in(self, names: &[&str]) -> bool {
         self.0.is_none_or(|channels| {
             let is_in = |channel: &ChannelRef| match channel {
                 ChannelRef::Name(_) => {
-                    names.clone().any(|name| Wanted::of(slice::from_ref(channel)).has(name))
+                    names.iter().any(|name| Wanted::of(slice::from_ref(channel)).has(name))
                 }
                 ChannelRef::Number(_) => true,
             };

@@ -7,6 +7,7 @@ use lissom_io::write;
 
 use crate::args::init_args::InitArgs;
 use crate::shared::failure::Failure;
+use crate::shared::shell_word::shell_word;
 use crate::tasks::described_logs::DescribedLogs;
 use crate::views::{draft_lines, printer};
 
@@ -33,7 +34,7 @@ pub(crate) fn run(args: &InitArgs) -> Result<ExitCode, Failure> {
     for text in &missing {
         printer::line(&format!("to do: {text}"));
     }
-    let out = args.out.display();
+    let out = shell_word(&args.out.display().to_string());
     printer::line(&format!("written: {out}"));
     printer::line(&if missing.is_empty() {
         format!("next: lissom identify {out} --report report.html")

@@ -8,3 +8,4 @@ pub(crate) mod failure;
 pub(crate) mod interrupted;
 pub(crate) mod output_guard;
 pub(crate) mod progress_bar;
+pub(crate) mod shell_word;

@@ -3,11 +3,13 @@
 use std::fmt::Write as _;
 
 use lissom_io::inspect::{
-    CampaignDraft, Description, DraftError, InspectedChannel, Inspection, Relation, UnitSource,
+    CampaignDraft, Description, DraftError, InspectedChannel, Inspection, LabelOrder, Relation,
+    Role, UnitSource,
 };
 
 use super::printer::{counted, line, table, wrapped};
 use crate::shared::digits::trimmed;
+use crate::shared::shell_word::shell_word;
 
 /// Significant digits of values.
 const DIGITS: usize = 4;
@@ -159,7 +161,8 @@ fn remarks(log: &Inspection, channel: &InspectedChannel) -> Vec<String> {
             ));
         }
     }
-    if facts.wraps > 0 {
+    let is_time = log.roles.of(Role::Time).is_some_and(|time| time.channel + 1 == channel.number);
+    if facts.wraps > 0 && !is_time {
         all.push(format!(
             "{label}: jumps by its whole range, {}: an angle that starts again after a turn",
             counted(facts.wraps, "time")
@@ -188,6 +191,12 @@ fn remarks(log: &Inspection, channel: &InspectedChannel) -> Vec<String> {
 /// The command to run next.
 fn next(log: &Inspection) {
     let file = log.file.display().to_string();
+    if let Some(labels) = log.labels.as_ref().filter(|l| l.order == LabelOrder::InTurn) {
+        let column = log.channels[labels.channel].label();
+        let rows = format!("{file}::{column}={}", labels.values[0]);
+        line("");
+        return line(&format!("next: lissom identify {}", shell_word(&rows)));
+    }
     let Ok(draft) =
         CampaignDraft::new(log, std::slice::from_ref(&log.file), &Description::default())
     else {
@@ -195,14 +204,15 @@ fn next(log: &Inspection) {
     };
     line("");
     match draft.text() {
-        Ok(_) => line(&format!("next: lissom identify {file}")),
+        Ok(_) => line(&format!("next: lissom identify {}", shell_word(&file))),
         Err(missing) => {
             let text = missing.to_string();
             item(text.strip_prefix(&format!("{file}: ")).unwrap_or(&text));
             let options: Vec<String> = draft.missing().filter_map(DraftError::option).collect();
             line("");
             line(&format!(
-                "next, with units in place of UNIT: lissom identify {file} {}",
+                "next, with units in place of UNIT: lissom identify {} {}",
+                shell_word(&file),
                 options.join(" ")
             ));
         }

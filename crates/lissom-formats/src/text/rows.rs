@@ -25,8 +25,10 @@ impl Rows {
         wanted: Wanted,
     ) -> Self {
         let name = |k: usize| header.names.get(k).map_or("", String::as_str);
-        let wanted = if wanted.are_all_in((0..width).map(name)) { wanted } else { Wanted::ALL };
-        let is_wanted = (0..width).map(|k| wanted.has_at(name(k), Some(k + 1))).collect();
+        let names: Vec<&str> = (0..width).map(name).collect();
+        let wanted = if wanted.are_all_in(&names) { wanted } else { Wanted::ALL };
+        let is_wanted =
+            names.iter().enumerate().map(|(k, name)| wanted.has_at(name, Some(k + 1))).collect();
         let columns = (0..width).map(|_| Column::new(0)).collect();
         Self { separator, decimal, columns, is_wanted }
     }

@@ -58,7 +58,7 @@ fn a_column_of_words_names_the_runs_or_the_joints() {
     assert!(error.ends_with("the groups are \"joint=elbow\", \"joint=wrist\""), "{error}");
     let both = format!("{HEAD}{MOTOR}run = \"joint\"\n[[runs]]\nfile = \"a.csv\"\n");
     let file = read_logs(&both, &[("a.csv", &text)]).unwrap();
-    let names: Vec<&str> = file.campaign.runs.iter().map(|run| run.name()).collect();
+    let names: Vec<&str> = file.campaign.runs.iter().map(lissom_core::record::Run::name).collect();
     assert_eq!(names, ["a.csv joint elbow", "a.csv joint wrist"]);
 }
 
