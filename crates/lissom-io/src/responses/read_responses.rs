@@ -4,6 +4,7 @@ use std::fs::File;
 use std::io::{self, Read as _};
 use std::path::Path;
 
+use lissom_formats::Channel;
 use num_complex::Complex64;
 
 use super::response_columns::{Columns, ComplexPart, PartColumn};
@@ -185,6 +186,31 @@ fn wide(bytes: &[u8]) -> bool {
 }
 
 fn read_table(path: &Path) -> Result<Table, ResponseError> {
+    let found = plain_cells(path).and_then(|cells| cells.table(path));
+    match found {
+        Err(
+            ResponseError::NoHeader { .. }
+            | ResponseError::NotText { .. }
+            | ResponseError::Encoding { .. }
+            | ResponseError::NoFrequency { .. }
+            | ResponseError::NoResponse { .. },
+        ) => other_cells(path).map_or(found, |cells| cells.table(path)),
+        found => found,
+    }
+}
+
+/// The cells of a table.
+struct Cells {
+    names: Vec<String>,
+    columns: Columns,
+    /// The values of each column; empty if they are not needed.
+    values: Vec<Vec<f64>>,
+    /// Line number of each row.
+    rows: Vec<usize>,
+}
+
+/// The cells of a plain text.
+fn plain_cells(path: &Path) -> Result<Cells, ResponseError> {
     let file = path.display().to_string();
     let text = text(path)?;
     let text = text.trim_start_matches('\u{feff}');
@@ -201,12 +227,11 @@ fn read_table(path: &Path) -> Result<Table, ResponseError> {
     let decimal_comma = delimiter == Delimiter::Char(';');
     let names: Vec<String> = delimiter.split(header).map(str::to_owned).collect();
     let columns = Columns::of(&file, &names)?;
-    let stem = path.file_stem().map_or_else(String::new, |s| s.to_string_lossy().into_owned());
-    let outputs = outputs(&file, &names, &columns, &stem)?;
-    let mut table = Table { omega_rad_s: Vec::new(), rows: Vec::new(), responses: Vec::new() };
+    if columns.parts.is_empty() {
+        return Err(ResponseError::NoResponse { file, names });
+    }
     let mut values: Vec<Vec<f64>> = vec![Vec::new(); names.len()];
-    let wanted: Vec<usize> =
-        std::iter::once(columns.frequency).chain(columns.parts.iter().map(|p| p.index)).collect();
+    let mut rows = Vec::new();
     for (row, line) in lines {
         let cells: Vec<&str> = delimiter.split(line).collect();
         let beyond = cells.iter().enumerate().skip(names.len());
@@ -214,7 +239,7 @@ fn read_table(path: &Path) -> Result<Table, ResponseError> {
             let (column, found, names) = (at + 1, (*found).to_owned(), names.len());
             return Err(ResponseError::ExtraCell { file, row, column, found, names });
         }
-        for &index in &wanted {
+        for index in columns.wanted() {
             let column = || names[index].clone();
             let cell = cells.get(index).copied().unwrap_or("");
             if cell.is_empty() {
@@ -226,26 +251,73 @@ fn read_table(path: &Path) -> Result<Table, ResponseError> {
             };
             values[index].push(value);
         }
+        rows.push(row);
+    }
+    Ok(Cells { names, columns, values, rows })
+}
+
+/// The cells of a file with a preamble or of another format; `None` if it has no frequency response.
+fn other_cells(path: &Path) -> Option<Cells> {
+    let data = lissom_formats::read(path).ok()?;
+    let with_unit = |channel: &Channel| match &channel.unit {
+        Some(unit) if !channel.name.to_lowercase().contains(&unit.to_lowercase()) => {
+            format!("{} [{unit}]", channel.name)
+        }
+        _ => channel.name.clone(),
+    };
+    let names: Vec<String> = data.channels.iter().map(with_unit).collect();
+    let columns = Columns::of("", &names).ok().filter(|columns| !columns.parts.is_empty())?;
+    let count = data.channels[columns.frequency].values.len();
+    let is_whole = |k: usize| {
+        let values = &data.channels[k].values;
+        values.len() == count && values.iter().all(|value| value.is_finite())
+    };
+    if !columns.wanted().all(is_whole) {
+        return None;
+    }
+    let values = data.channels.into_iter().map(|channel| channel.values).collect();
+    Some(Cells { names, columns, values, rows: (1..=count).collect() })
+}
+
+impl Cells {
+    /// The responses in the table of a file.
+    fn table(self, path: &Path) -> Result<Table, ResponseError> {
+        let file = path.display().to_string();
+        let Self { names, columns, values, rows } = self;
+        let stem = path.file_stem().map_or_else(String::new, |s| s.to_string_lossy().into_owned());
         let frequency = &values[columns.frequency];
-        let (last, column) = (frequency.len() - 1, names[columns.frequency].clone());
-        let found = frequency[last];
-        if found <= 0.0 {
-            let what = Positive::Frequency;
-            return Err(ResponseError::NotPositive { file, row, column, found, what });
+        let column = || names[columns.frequency].clone();
+        for (at, (&found, &row)) in frequency.iter().zip(&rows).enumerate() {
+            if found <= 0.0 {
+                let what = Positive::Frequency;
+                return Err(ResponseError::NotPositive {
+                    file,
+                    row,
+                    column: column(),
+                    found,
+                    what,
+                });
+            }
+            if let Some(before) = at.checked_sub(1).map(|i| frequency[i]).filter(|b| *b >= found) {
+                let column = column();
+                return Err(ResponseError::NotAscending {
+                    file,
+                    row,
+                    column,
+                    before,
+                    after: found,
+                });
+            }
         }
-        if let Some(before) = last.checked_sub(1).map(|i| frequency[i]).filter(|b| *b >= found) {
-            return Err(ResponseError::NotAscending { file, row, column, before, after: found });
+        if rows.is_empty() {
+            return Err(ResponseError::NoRows { file });
         }
-        table.rows.push(row);
+        let outputs = outputs(&file, &names, &columns, &stem)?;
+        let responses = outputs.iter().map(|output| output.response(&file, &names, &rows, &values));
+        let responses = responses.collect::<Result<_, _>>()?;
+        let omega_rad_s = frequency.iter().map(|f| f * columns.rad_s).collect();
+        Ok(Table { omega_rad_s, rows, responses })
     }
-    if table.rows.is_empty() {
-        return Err(ResponseError::NoRows { file });
-    }
-    table.omega_rad_s = values[columns.frequency].iter().map(|f| f * columns.rad_s).collect();
-    for output in outputs {
-        table.responses.push(output.response(&file, &names, &table.rows, &values)?);
-    }
-    Ok(table)
 }
 
 /// The columns of an output.

@@ -53,7 +53,7 @@ pub(super) struct Columns {
 }
 
 /// Words of a frequency's name.
-const FREQUENCY: [&str; 6] = ["omega", "ω", "w", "frequency", "freq", "f"];
+const FREQUENCY: [&str; 7] = ["omega", "ω", "w", "frequency", "freq", "f", "frequenz"];
 
 impl Columns {
     pub(super) fn of(file: &str, names: &[String]) -> Result<Self, ResponseError> {
@@ -79,7 +79,26 @@ impl Columns {
             let (file, names) = (file.to_owned(), names.to_vec());
             return Err(ResponseError::NoFrequency { file, names, nearest });
         };
+        one_response(&mut parts);
         Ok(Self { frequency, rad_s, parts })
+    }
+
+    /// Indices of the columns that are needed.
+    pub(super) fn wanted(&self) -> impl Iterator<Item = usize> {
+        std::iter::once(self.frequency).chain(self.parts.iter().map(|part| part.index))
+    }
+}
+
+/// Two columns that are the two parts of one response, whatever they are named: `|G| [dB]` and `phi [deg]`.
+fn one_response(parts: &mut [PartColumn]) {
+    use ComplexPart::{Decibel, Imaginary, Magnitude, Phase, Real};
+    let [first, second] = parts else { return };
+    let pair =
+        |of: [ComplexPart; 2]| of == [first.part, second.part] || of == [second.part, first.part];
+    let is_pair = [[Real, Imaginary], [Magnitude, Phase], [Decibel, Phase]].into_iter().any(pair);
+    if is_pair && first.output != second.output {
+        first.output.clear();
+        second.output.clear();
     }
 }
 
@@ -101,7 +120,12 @@ impl Split {
             }
             None => (name, None),
         };
-        let words = plain.split(['_', ' ', '.', '-', '/']).filter(|w| !w.is_empty());
+        // Some instruments write `Gain in dB`.
+        let (plain, unit) = match (plain.rsplit_once(" in "), unit) {
+            (Some((plain, unit)), None) => (plain, Some(unit.trim().to_owned())),
+            (_, unit) => (plain, unit),
+        };
+        let words = plain.split(['_', ' ', '.', '-', '/', ':', '|']).filter(|w| !w.is_empty());
         Self { words: words.map(str::to_owned).collect(), unit }
     }
 
@@ -172,7 +196,7 @@ fn part_of(word: &str) -> Option<ComplexPart> {
     Some(match word {
         "re" | "real" => ComplexPart::Real,
         "im" | "imag" | "imaginary" => ComplexPart::Imaginary,
-        "mag" | "magnitude" | "abs" | "gain" | "amplitude" => ComplexPart::Magnitude,
+        "mag" | "magnitude" | "abs" | "gain" | "amplitude" | "betrag" => ComplexPart::Magnitude,
         "db" => ComplexPart::Decibel,
         "phase" | "deg" | "degree" | "degrees" | "arg" | "rad" => ComplexPart::Phase,
         "std" | "sigma" | "deviation" => ComplexPart::Deviation,

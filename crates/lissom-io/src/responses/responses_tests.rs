@@ -59,6 +59,39 @@ fn files_decibels_degrees_and_hertz() {
     assert_eq!(found.points[0].name, "tip");
 }
 
+/// A table that an instrument writes, of a response that is 10 at 90°.
+fn export(header: &str, row: impl Fn(f64) -> String) -> String {
+    let rows: Vec<String> = (1..30).map(|k| row(f64::from(k))).collect();
+    format!("{header}\n{}\n", rows.join("\n"))
+}
+
+#[test]
+fn exports_of_instruments_are_read() {
+    let semicolons = |f: f64| format!("{f},5;20,0;90,0");
+    let commas = |f: f64| format!("{f}.5,20,90");
+    for text in [
+        export("Analyzer 3\nStart: 1 Hz\n\nFrequency (Hz);Gain (dB);Phase (deg)", semicolons),
+        export("Frequency (Hz);Trace 1: Gain: Magnitude (dB);Trace 1: Gain: Phase (°)", semicolons),
+        export("Sample,Frequency in Hz,Gain in dB,Phase in °", |f| format!("{f},{}", commas(f))),
+        export("Phase [deg],|G| [dB],f [Hz]", |f| format!("90,20,{f}.5")),
+        export("f [Hz],|G| [dB],phi [°],coherence", |f| format!("{},0.9", commas(f))),
+        export("#Frequenz [Hz]\tBetrag [dB]\tPhase [°]", |f| format!("{f}.5\t20\t90")),
+    ] {
+        let found = read(&[("tip.csv", &text)]).unwrap_or_else(|error| panic!("{text}\n{error}"));
+        assert!((found.omega_rad_s[0] - 1.5 * TAU).abs() < 1e-12, "{text}");
+        assert!((found.points[0].response[0] - Complex64::new(0.0, 10.0)).norm() < 1e-12, "{text}");
+    }
+    let text = export("f [Hz],Gain (dB),Phase [°]", commas);
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("a.csv");
+    let wide: Vec<u8> = text.encode_utf16().flat_map(u16::to_le_bytes).collect();
+    let latin: Vec<u8> = text.chars().map(|c| u8::try_from(c).unwrap()).collect();
+    for bytes in [wide, latin] {
+        std::fs::write(&path, bytes).unwrap();
+        assert_eq!(read_responses(&[&path]).unwrap().omega_rad_s.len(), 29);
+    }
+}
+
 #[test]
 fn errors_name_file_row_and_column() {
     let fails = |files: &[(&str, &str)], end: &str| {
