@@ -3,27 +3,23 @@
 //! The longest axis of an array counts the samples; every place on the other axes is a channel. Of a square array the
 //! columns are the channels.
 
-use std::borrow::Cow;
-
 use crate::collected::{Collected, LeftOut};
+use crate::columns::{Column, Columns, Values};
 use crate::format_error::FormatError;
-use crate::log_data::Channel;
 use crate::number::Number;
 
 /// Most channels of one array.
 const MOST_CHANNELS: usize = 4096;
-const MANY_CHANNELS: LeftOut = LeftOut {
+pub(crate) const MANY_CHANNELS: LeftOut = LeftOut {
     what: "arrays with more than 4096 channels",
     way_out: "save the rows or columns that are needed as an array of their own",
 };
-/// Bytes that are decoded for all channels before the next ones: they fit into the cache of a core.
-const BLOCK_BYTES: usize = 1 << 15;
-
-/// An array of numbers in the bytes of a file.
+/// Where the numbers of an array are, in items that follow each other.
 #[derive(Debug, Clone)]
-pub(crate) struct Array<'a> {
-    pub(crate) bytes: Cow<'a, [u8]>,
+pub(crate) struct Array {
     pub(crate) number: Number,
+    /// Where the first number begins \[byte\].
+    pub(crate) offset: usize,
     pub(crate) axes: Vec<Axis>,
 }
 
@@ -59,34 +55,22 @@ pub(crate) fn items(lengths: &[usize]) -> Option<usize> {
     lengths.iter().try_fold(1_usize, |product, length| product.checked_mul(*length))
 }
 
-impl Array<'_> {
-    /// Appends its channels to those of the file. They are named `name`, or `name[1]`, `name[2]`, ... if there are several.
-    pub(crate) fn collect(&self, name: &str, found: &mut Collected) -> Result<(), FormatError> {
-        self.collect_part(name, "", found)
-    }
-
-    /// Appends the channels of complex numbers, whose two parts are these arrays.
-    pub(crate) fn collect_complex(
-        [real, imag]: [&Self; 2],
-        name: &str,
-        found: &mut Collected,
-    ) -> Result<(), FormatError> {
-        real.collect_part(name, "/real", found)?;
-        imag.collect_part(name, "/imag", found)
-    }
-
-    /// Appends its channels; `part` is the end of their names.
-    fn collect_part(
+impl Array {
+    /// The channels of the array `name`. Values are read later of those that are wanted; their memory is counted here. `part`
+    /// is the end of the names; the first channel has this number in the file, if it is known. The items have these bytes.
+    pub(crate) fn columns(
         &self,
         name: &str,
-        part: &str,
+        part: &'static str,
+        number: Option<usize>,
+        bytes: usize,
         found: &mut Collected,
-    ) -> Result<(), FormatError> {
-        let too_large = || FormatError::content(name, "the array is larger than the file");
+    ) -> Result<Columns, FormatError> {
         let lengths: Vec<usize> = self.axes.iter().map(|axis| axis.length).collect();
-        let count = items(&lengths).ok_or_else(too_large)?;
+        let count = items(&lengths).ok_or_else(|| too_large(name))?;
+        let none = Columns { part, ..Columns::default() };
         if count == 0 {
-            return Ok(());
+            return Ok(none);
         }
         let axes: Vec<Axis> = self.axes.iter().copied().filter(|axis| axis.length > 1).collect();
         let longest = axes.iter().map(|axis| axis.length).max();
@@ -96,46 +80,43 @@ impl Array<'_> {
             None => (1, self.number.kind.size()),
         };
         if count / length > MOST_CHANNELS {
-            found.leave_out(name, &MANY_CHANNELS);
-            return Ok(());
+            return Ok(Columns { has_too_many: true, ..none });
         }
-        if self.reach().is_none_or(|reach| reach > self.bytes.len()) {
-            return Err(too_large());
+        if self.reach().is_none_or(|reach| reach > bytes) {
+            return Err(too_large(name));
         }
-        found.take_bytes(count.saturating_mul(size_of::<f64>()))?;
         let others: Vec<Axis> =
             axes.iter().enumerate().filter(|(k, _)| Some(*k) != samples).map(|(_, a)| *a).collect();
-        let places = places(&others);
-        let mut values: Vec<Vec<f64>> = places.iter().map(|_| Vec::with_capacity(length)).collect();
-        let step = (BLOCK_BYTES / stride.max(1)).max(1);
-        for first in (0..length).step_by(step) {
-            let rows = step.min(length - first);
-            for (out, place) in values.iter_mut().zip(&places) {
-                let bytes = self.bytes.get(place.offset + first * stride..).unwrap_or_default();
-                self.number.append(out, bytes, stride, rows);
-            }
+        let mut columns = Vec::new();
+        for (k, Place { offset, label }) in places(&others).into_iter().enumerate() {
+            let number = number.map(|number| number + k);
+            // A number alone may be one of a channel of another name.
+            let is_wanted =
+                count == 1 || found.wanted.has_at(&format!("{name}{label}{part}"), number);
+            let values = if is_wanted {
+                found.take_bytes(length.saturating_mul(size_of::<f64>()))?;
+                let (next, left) = (self.offset + offset, length);
+                Some(Values { number: self.number, next, stride, left, read: Vec::new() })
+            } else {
+                None
+            };
+            columns.push(Column { label, values });
         }
-        let named = |place: &Place| format!("{name}{}{part}", place.label);
-        found.channels.extend(places.iter().zip(values).map(|(p, v)| Channel::of(named(p), v)));
-        Ok(())
+        Ok(Columns { length, columns, ..none })
     }
 
-    /// Its number, if it has one.
-    pub(crate) fn scalar(&self) -> Option<f64> {
-        let mut value = Vec::with_capacity(1);
-        if self.axes.iter().all(|axis| axis.length == 1) {
-            self.number.append(&mut value, &self.bytes, self.number.kind.size(), 1);
-        }
-        value.pop()
-    }
-
-    /// Bytes from the beginning to the end of the last item.
+    /// Bytes from the beginning of the items to the end of the last number.
     fn reach(&self) -> Option<usize> {
         let last = |reach: usize, axis: &Axis| {
             reach.checked_add(axis.length.checked_sub(1)?.checked_mul(axis.stride)?)
         };
-        self.axes.iter().try_fold(self.number.kind.size(), last)
+        let size = self.offset.checked_add(self.number.kind.size())?;
+        self.axes.iter().try_fold(size, last)
     }
+}
+
+pub(crate) fn too_large(name: &str) -> FormatError {
+    FormatError::content(name, "the array is larger than the file")
 }
 
 /// Where a channel begins.

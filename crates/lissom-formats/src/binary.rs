@@ -1,5 +1,6 @@
 //! Formats that are no tables of text, recognised by their first bytes.
 
+use crate::channel_ref::Wanted;
 #[cfg(not(feature = "xlsx"))]
 use crate::format::WORKBOOK;
 use crate::format_error::FormatError;
@@ -10,6 +11,7 @@ use crate::log_data::LogData;
 use crate::mcap;
 #[cfg(feature = "parquet")]
 use crate::parquet_file;
+use crate::source::Source;
 #[cfg(feature = "xlsx")]
 use crate::xlsx;
 use crate::{matlab, numpy, tdms, uff58, wpilog, zip};
@@ -18,23 +20,35 @@ use crate::{matlab, numpy, tdms, uff58, wpilog, zip};
 struct Binary {
     /// Whether a file begins as this format does.
     begins: fn(&[u8]) -> bool,
-    read: fn(&[u8]) -> Result<LogData, FormatError>,
+    read: fn(&Source, Wanted) -> Result<LogData, FormatError>,
 }
 
 const BINARY: &[Binary] = &[
     Binary { begins: |bytes| bytes.starts_with(numpy::NPY), read: numpy::read_npy },
     Binary { begins: matlab::begins_v5, read: matlab::read_v5 },
-    Binary { begins: |bytes| bytes.starts_with(wpilog::WPILOG), read: wpilog::read },
-    Binary { begins: |bytes| bytes.starts_with(tdms::TDMS), read: tdms::read },
-    Binary { begins: uff58::begins, read: uff58::read },
+    Binary {
+        begins: |bytes| bytes.starts_with(wpilog::WPILOG),
+        read: |source, _| wpilog::read(&source.all()?),
+    },
+    Binary {
+        begins: |bytes| bytes.starts_with(tdms::TDMS),
+        read: |source, _| tdms::read(&source.all()?),
+    },
+    Binary { begins: uff58::begins, read: |source, _| uff58::read(&source.all()?) },
     #[cfg(feature = "hdf5")]
     Binary { begins: |bytes| bytes.starts_with(hdf5::HDF5), read: hdf5::read },
     #[cfg(feature = "hdf5")]
     Binary { begins: |bytes| bytes.starts_with(matlab::MATLAB_73), read: matlab::read_v73 },
     #[cfg(feature = "mcap")]
-    Binary { begins: |bytes| bytes.starts_with(mcap::MCAP), read: mcap::read },
+    Binary {
+        begins: |bytes| bytes.starts_with(mcap::MCAP),
+        read: |source, _| mcap::read(&source.all()?),
+    },
     #[cfg(feature = "parquet")]
-    Binary { begins: |bytes| bytes.starts_with(parquet_file::PARQUET), read: parquet_file::read },
+    Binary {
+        begins: |bytes| bytes.starts_with(parquet_file::PARQUET),
+        read: |source, _| parquet_file::read(&source.all()?),
+    },
     Binary { begins: matlab::begins_v4, read: matlab::read_v4 },
 ];
 
@@ -47,26 +61,30 @@ pub(crate) fn is_recognised(first: &[u8]) -> bool {
     of(first).is_some()
 }
 
-/// Reads a file; `None` if it is of none of the binary formats.
-pub(crate) fn read(bytes: &[u8]) -> Option<Result<LogData, FormatError>> {
-    if let Some(format) = of(bytes) {
-        return Some((format.read)(bytes));
+/// Reads a file with these first bytes; `None` if it is of none of the binary formats.
+pub(crate) fn read(
+    source: &Source,
+    first: &[u8],
+    wanted: Wanted,
+) -> Result<Option<LogData>, FormatError> {
+    if let Some(format) = of(first) {
+        return (format.read)(source, wanted).map(Some);
     }
-    if !bytes.starts_with(zip::ZIP) {
-        return None;
+    if !first.starts_with(zip::ZIP) {
+        return Ok(None);
     }
     // An archive is one of arrays or a workbook by its entries, not by its first bytes.
-    let Some(entries) = zip::entries(bytes) else {
+    let Some(entries) = zip::entries(source)? else {
         let reason = "the archive ends before its directory".to_owned();
-        return Some(Err(FormatError::Damaged { reason }));
+        return Err(FormatError::Damaged { reason });
     };
     #[cfg(feature = "xlsx")]
     if xlsx::is_workbook(&entries) {
-        return Some(xlsx::read(bytes, &entries));
+        return xlsx::read(source, &entries).map(Some);
     }
     #[cfg(not(feature = "xlsx"))]
     if entries.iter().any(|entry| entry.name == "xl/workbook.xml") {
-        return Some(Err(WORKBOOK));
+        return Err(WORKBOOK);
     }
-    numpy::is_npz(&entries).then(|| numpy::read_npz(bytes, &entries))
+    numpy::is_npz(&entries).then(|| numpy::read_npz(source, &entries, wanted)).transpose()
 }

@@ -1,13 +1,15 @@
-//! The bytes of a file, expanded if they are compressed.
+//! The source of the bytes of a file: the file itself, or its bytes in memory if it is compressed.
 
 use std::fs::File;
-use std::io::{ErrorKind, Read};
+use std::io::{BufReader, ErrorKind, Read, Seek as _};
 use std::path::Path;
+use std::sync::Arc;
 
 use flate2::read::MultiGzDecoder;
 use ruzstd::decoding::StreamingDecoder;
 
 use crate::format_error::FormatError;
+use crate::source::Source;
 
 /// Largest number of bytes, after expansion.
 pub(crate) const MOST_BYTES: u64 = 2 << 30;
@@ -17,9 +19,9 @@ pub(crate) const GZIP: &[u8] = b"\x1f\x8b";
 /// See [`GZIP`].
 pub(crate) const ZSTD: &[u8] = b"\x28\xb5\x2f\xfd";
 
-/// Reads a file and expands `.gz` and `.zst`, recognised by content.
-pub(crate) fn of_file(path: &Path) -> Result<Vec<u8>, FormatError> {
-    let file = File::open(path)?;
+/// The bytes of a file. `.gz` and `.zst`, recognised by content, are expanded in memory.
+pub(crate) fn of_file(path: &Path) -> Result<Source, FormatError> {
+    let mut file = File::open(path)?;
     let metadata = file.metadata()?;
     if metadata.is_dir() {
         return Err(std::io::Error::from(ErrorKind::IsADirectory).into());
@@ -27,20 +29,34 @@ pub(crate) fn of_file(path: &Path) -> Result<Vec<u8>, FormatError> {
     if metadata.len() > MOST_BYTES {
         return Err(FormatError::TooLarge { most: MOST_BYTES });
     }
-    expanded(limited(file)?)
+    if !metadata.is_file() {
+        // A pipe has no places.
+        return of_bytes(limited(file)?);
+    }
+    let mut first = Vec::new();
+    file.by_ref().take(ZSTD.len() as u64).read_to_end(&mut first)?;
+    file.rewind()?;
+    if let Some(expanded) = expanded(&first, BufReader::new(&file)) {
+        return Ok(Source::in_memory(expanded?));
+    }
+    Ok(Source::File { file: Arc::new(file), length: metadata.len() })
 }
 
-/// Expands compressed bytes; others are returned as they are.
-pub(crate) fn expanded(bytes: Vec<u8>) -> Result<Vec<u8>, FormatError> {
-    let damaged = |reason: String| FormatError::Damaged { reason };
-    if bytes.starts_with(GZIP) {
-        return read_compressed(MultiGzDecoder::new(&bytes[..]));
+/// Bytes in memory, expanded if they are compressed.
+pub(crate) fn of_bytes(bytes: Vec<u8>) -> Result<Source, FormatError> {
+    let expanded = expanded(&bytes, &bytes[..]).transpose()?;
+    Ok(Source::in_memory(expanded.unwrap_or(bytes)))
+}
+
+/// Expands the bytes of a reader; `None` if the first ones are not those of a compressed file.
+fn expanded(first: &[u8], reader: impl Read) -> Option<Result<Vec<u8>, FormatError>> {
+    if first.starts_with(GZIP) {
+        return Some(read_compressed(MultiGzDecoder::new(reader)));
     }
-    if bytes.starts_with(ZSTD) {
-        let decoder = StreamingDecoder::new(&bytes[..]).map_err(|e| damaged(e.to_string()))?;
-        return read_compressed(decoder);
-    }
-    Ok(bytes)
+    first.starts_with(ZSTD).then(|| {
+        let damaged = |reason: String| FormatError::Damaged { reason };
+        read_compressed(StreamingDecoder::new(reader).map_err(|e| damaged(e.to_string()))?)
+    })
 }
 
 fn read_compressed(reader: impl Read) -> Result<Vec<u8>, FormatError> {

@@ -3,9 +3,10 @@
 use std::collections::HashSet;
 
 use crate::bytes::MOST_BYTES;
+use crate::channel_ref::Wanted;
 use crate::format::Format;
 use crate::format_error::FormatError;
-use crate::log_data::{Channel, LogData};
+use crate::log_data::{Channel, Clock, LogData};
 
 /// Most names in a note.
 const MOST_NAMES: usize = 5;
@@ -40,17 +41,31 @@ impl Names {
 
 /// The channels of a file while it is read.
 #[derive(Debug)]
-pub(crate) struct Collected {
+pub(crate) struct Collected<'a> {
     pub(crate) channels: Vec<Channel>,
+    /// The channels whose values are read.
+    pub(crate) wanted: Wanted<'a>,
     notes: Vec<String>,
     left_out: Vec<(&'static LeftOut, Names)>,
     /// The bytes that the file may still take in memory.
     budget: u64,
 }
 
-impl Collected {
+impl<'a> Collected<'a> {
+    /// With the values of all channels.
     pub(crate) fn new() -> Self {
-        Self { channels: Vec::new(), notes: Vec::new(), left_out: Vec::new(), budget: MOST_BYTES }
+        Self::of(Wanted::ALL)
+    }
+
+    /// With the values of these channels, and their time stamps.
+    pub(crate) fn of(wanted: Wanted<'a>) -> Self {
+        let (channels, notes, left_out) = (Vec::new(), Vec::new(), Vec::new());
+        Self { channels, wanted, notes, left_out, budget: MOST_BYTES }
+    }
+
+    /// Reads all values from now on. Returns what was wanted before.
+    pub(crate) fn want_all(&mut self) -> Wanted<'a> {
+        std::mem::replace(&mut self.wanted, Wanted::ALL)
     }
 
     /// Counts bytes that a part of the file takes in memory: compressed files, and numbers of few bits, become larger than
@@ -116,11 +131,30 @@ impl Collected {
             let names = names.listed();
             self.notes.push(format!("left out: {names} ({}); {}", why.what, why.way_out));
         }
+        self.drop_unwanted();
         let Self { mut channels, notes, .. } = self;
         // In brackets at the end of a name of MCAP is the name of a joint.
         if format != Format::Mcap {
             channels.iter_mut().for_each(Channel::take_unit_of_name);
         }
         Ok(LogData { format, channels, decimal_comma: false, notes })
+    }
+
+    /// Drops values of channels that were read before their name or number was known, or as stamps of others.
+    fn drop_unwanted(&mut self) {
+        let wanted = self.wanted;
+        let is_kept = |(k, channel): (usize, &Channel)| wanted.has_at(&channel.name, Some(k + 1));
+        let mut kept: Vec<bool> = self.channels.iter().enumerate().map(is_kept).collect();
+        for (k, channel) in self.channels.iter().enumerate() {
+            if let Clock::Channel(clock) = channel.clock
+                && wanted.has_at(&channel.name, Some(k + 1))
+                && let Some(kept) = kept.get_mut(clock)
+            {
+                *kept = true;
+            }
+        }
+        for (channel, _) in self.channels.iter_mut().zip(kept).filter(|(_, kept)| !kept) {
+            channel.values = Vec::new();
+        }
     }
 }

@@ -36,7 +36,9 @@ mod binary;
 mod bytes;
 mod channel_ref;
 mod collected;
+mod columns;
 mod cursor;
+mod expanded;
 mod format;
 mod format_error;
 #[cfg(any(feature = "hdf5", feature = "parquet", feature = "xlsx"))]
@@ -56,6 +58,8 @@ mod parts;
 mod plain_decimal;
 mod read;
 mod read_options;
+mod source;
+mod stream;
 mod tdms;
 mod text;
 mod uff58;

@@ -8,7 +8,11 @@ use crate::format::foreign;
 use crate::format_error::FormatError;
 use crate::log_data::LogData;
 use crate::read_options::ReadOptions;
+use crate::source::Source;
 use crate::{binary, bytes, text};
+
+/// Bytes at the beginning of a file that show its format.
+const FIRST_BYTES: u64 = 4096;
 
 /// Reads all channels of a log file.
 ///
@@ -23,7 +27,7 @@ pub fn read(path: &Path) -> Result<LogData, FormatError> {
 /// # Errors
 /// As [`read`], and [`FormatError::Content`] if there is no table where the options state it.
 pub fn read_with(path: &Path, options: &ReadOptions) -> Result<LogData, FormatError> {
-    of_expanded(&bytes::of_file(path)?, options, Wanted::ALL)
+    of_source(&bytes::of_file(path)?, options, Wanted::ALL)
 }
 
 /// Reads some channels of a log file, and the time stamps that the file gives them. Of the others the values may be left
@@ -36,7 +40,7 @@ pub fn read_channels(
     options: &ReadOptions,
     channels: &[ChannelRef],
 ) -> Result<LogData, FormatError> {
-    of_expanded(&bytes::of_file(path)?, options, Wanted::of(channels))
+    of_source(&bytes::of_file(path)?, options, Wanted::of(channels))
 }
 
 /// Reads all channels of a log file that is in memory.
@@ -44,21 +48,22 @@ pub fn read_channels(
 /// # Errors
 /// As [`read`].
 pub fn read_bytes(bytes: Vec<u8>) -> Result<LogData, FormatError> {
-    of_expanded(&bytes::expanded(bytes)?, &ReadOptions::default(), Wanted::ALL)
+    of_source(&bytes::of_bytes(bytes)?, &ReadOptions::default(), Wanted::ALL)
 }
 
-fn of_expanded(
-    bytes: &[u8],
+fn of_source(
+    source: &Source,
     options: &ReadOptions,
     wanted: Wanted,
 ) -> Result<LogData, FormatError> {
-    if let Some(found) = binary::read(bytes) {
-        return found;
+    let first = source.bytes(0..FIRST_BYTES)?;
+    if let Some(found) = binary::read(source, &first, wanted)? {
+        return Ok(found);
     }
-    if let Some((what, way_out)) = foreign(bytes) {
+    if let Some((what, way_out)) = foreign(&first) {
         return Err(FormatError::Foreign { what, way_out });
     }
-    text::read(&mut &bytes[..], options, wanted)
+    text::read(&mut source.stream(0), options, wanted)
 }
 
 /// Whether the first bytes of a file show that it is not a plain table: compressed, a trace of CODESYS, binary, or a format

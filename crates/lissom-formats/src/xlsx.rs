@@ -15,6 +15,7 @@ use crate::format::Format;
 use crate::format_error::FormatError;
 use crate::guard::guarded;
 use crate::log_data::{Channel, Clock, LogData};
+use crate::source::Source;
 use crate::text::find_in_tabs;
 use crate::zip::Entry;
 
@@ -24,14 +25,15 @@ pub(crate) fn is_workbook(entries: &[Entry]) -> bool {
 }
 
 /// Reads a workbook.
-pub(crate) fn read(bytes: &[u8], entries: &[Entry]) -> Result<LogData, FormatError> {
+pub(crate) fn read(source: &Source, entries: &[Entry]) -> Result<LogData, FormatError> {
     let mut found = Collected::new();
     for entry in entries {
         // The library does not limit the size of an entry: one that expands to more than is stated is an error here.
         found.take_bytes(entry.expanded_bytes())?;
-        entry.content(bytes)?;
+        entry.content(source)?.finish()?;
     }
-    guarded(Format::Xlsx, || of_sheets(bytes, &mut found))
+    let bytes = source.all()?;
+    guarded(Format::Xlsx, || of_sheets(&bytes, &mut found))
 }
 
 #[expect(clippy::needless_pass_by_value, reason = "for map_err")]

@@ -1,59 +1,22 @@
 //! Datasets of HDF5 files: their shape, their type, and their bytes.
 
-use hdf5_pure::{Dataset, Datatype, DatatypeByteOrder, Error, File};
+use hdf5_pure::{Dataset, Datatype, DatatypeByteOrder, Error};
 
-use crate::array::{Array, Axis, items};
+use crate::array::items;
 use crate::bytes::MOST_BYTES;
 use crate::collected::Collected;
+use crate::columns::Columns;
 use crate::format_error::FormatError;
 use crate::number::{Number, NumberType};
 
 /// Most bytes that deflate makes of one, rounded up.
 const LARGEST_RATIO: u64 = 1100;
 
-/// The file in these bytes.
-pub(crate) fn opened(bytes: &[u8]) -> Result<File, FormatError> {
-    let mut bytes = bytes.to_vec();
-    remove_soft_links(&mut bytes);
-    File::from_bytes(bytes).map_err(damaged)
-}
-
-/// Removes soft links from groups of the older kind: the library takes them for damage and reads none of the group.
-///
-/// # Source
-/// HDF5 file format specification 3.0, III.B and III.C: nodes and entries of symbol tables.
-fn remove_soft_links(bytes: &mut [u8]) {
-    const NODE: &[u8] = b"SNOD\x01\x00";
-    /// Header of a node; an entry with addresses of 64 bits.
-    const SIZES: (usize, usize) = (8, 40);
-    let mut place = 0;
-    while let Some(next) = position(bytes.get(place..).unwrap_or_default(), NODE) {
-        let node = place + next;
-        place = node + SIZES.0;
-        let Some(count) = bytes.get(node + 6..place).and_then(|b| b.first_chunk::<2>()) else {
-            return;
-        };
-        let count = usize::from(u16::from_le_bytes(*count));
-        let Some(entries) = bytes.get_mut(place..place + count * SIZES.1) else { continue };
-        let mut kept = 0;
-        for k in 0..count {
-            let entry = entries.get(k * SIZES.1..(k + 1) * SIZES.1).unwrap_or_default();
-            // No address of an object, and the type of a soft link.
-            let is_soft = entry.get(8..20) == Some(b"\xff\xff\xff\xff\xff\xff\xff\xff\x02\0\0\0");
-            if !is_soft {
-                entries.copy_within(k * SIZES.1..(k + 1) * SIZES.1, kept * SIZES.1);
-                kept += 1;
-            }
-        }
-        if let Some(stated) = bytes.get_mut(node + 6..place) {
-            stated.copy_from_slice(&(kept as u16).to_le_bytes());
-        }
-    }
-}
-
-fn position(bytes: &[u8], of: &[u8]) -> Option<usize> {
-    bytes.windows(of.len()).position(|window| window == of)
-}
+/// Bytes that are read at once, if they are of contiguous data or of small chunks.
+const BLOCK_BYTES: usize = 1 << 18;
+/// Most bytes that are read at once, if the wanted values are fewer: chunks that span more than that are expanded again
+/// for each part.
+const MOST_AT_ONCE: usize = 1 << 26;
 
 /// The error of the library as one of the file.
 #[expect(clippy::needless_pass_by_value, reason = "for map_err")]
@@ -78,28 +41,87 @@ pub(crate) fn item_size(dataset: &Dataset) -> Result<usize, FormatError> {
     usize::try_from(size).map_err(|_| too_large())
 }
 
-/// The items of a dataset; their bytes are counted as taken.
-pub(crate) fn bytes(dataset: &Dataset, found: &mut Collected) -> Result<Vec<u8>, FormatError> {
+/// Number of bytes of the items of a dataset in a file of a number of bytes.
+pub(crate) fn byte_count(
+    dataset: &Dataset,
+    file_bytes: u64,
+    found: &mut Collected,
+) -> Result<usize, FormatError> {
     let size = item_size(dataset)?;
     let of = |lengths: &[usize]| items(lengths).and_then(|count| count.checked_mul(size));
     let count = of(&shape(dataset)?).ok_or_else(too_large)?;
-    found.take_bytes(count)?;
     let mut stored = count as u64;
     if let Some(lengths) = dataset.chunk_shape().map_err(damaged)? {
-        // All chunks are in memory at once, each with its whole size.
+        // A chunk is in memory with its whole size.
         let lengths: Vec<usize> = lengths.into_iter().map(|length| length as usize).collect();
         let chunks = dataset.chunks().map_err(damaged)?;
         let expanded = of(&lengths).and_then(|chunk| chunk.checked_mul(chunks.len()));
         let expanded = expanded.ok_or_else(too_large)?;
         found.take_bytes(expanded)?;
         found.release_bytes(expanded);
+        // The library takes memory for a chunk before it reads it.
+        if chunks.iter().any(|chunk| chunk.storage_size > file_bytes) {
+            return Err(FormatError::content("its data", "a chunk is larger than the file"));
+        }
         stored = chunks.iter().fold(0, |sum, chunk| chunk.storage_size.saturating_add(sum));
     }
     if count as u64 > stored.saturating_mul(LARGEST_RATIO) {
         let reason = format!("{count} bytes are stated, and {stored} are in the file");
         return Err(FormatError::content("its data", reason));
     }
+    Ok(count)
+}
+
+/// All items of a dataset; their bytes are counted as taken.
+pub(crate) fn bytes(
+    dataset: &Dataset,
+    file_bytes: u64,
+    found: &mut Collected,
+) -> Result<Vec<u8>, FormatError> {
+    let count = byte_count(dataset, file_bytes, found)?;
+    found.take_bytes(count)?;
     dataset.read_raw().map_err(damaged)
+}
+
+/// Reads the wanted values of the arrays in a dataset.
+pub(crate) fn read_values(dataset: &Dataset, arrays: &mut [Columns]) -> Result<(), FormatError> {
+    let lengths = shape(dataset)?;
+    let row_bytes = items(lengths.get(1..).unwrap_or_default());
+    let row_bytes = row_bytes.and_then(|items| items.checked_mul(item_size(dataset).ok()?));
+    let row_bytes = row_bytes.ok_or_else(too_large)?.max(1);
+    let rows = rows_at_once(dataset, row_bytes, arrays)?;
+    let mut before = None;
+    while let Some(next) = arrays.iter().filter_map(Columns::next).min() {
+        if before.replace(next) == Some(next) {
+            return Err(FormatError::content("its data", "a number is not inside its item"));
+        }
+        let first = next / row_bytes / rows * rows;
+        let bytes = dataset.read_raw_rows(first as u64, rows as u64).map_err(damaged)?;
+        arrays.iter_mut().for_each(|array| array.append(&bytes, first * row_bytes));
+    }
+    if before.is_none() {
+        // A dataset that cannot be read is left out, whether it is wanted or not.
+        dataset.read_raw_rows(0, 1).map_err(damaged)?;
+    }
+    Ok(())
+}
+
+/// Number of rows that are read at once: whole chunks, so that each is expanded once.
+fn rows_at_once(
+    dataset: &Dataset,
+    row_bytes: usize,
+    arrays: &[Columns],
+) -> Result<usize, FormatError> {
+    let chunk = dataset.chunk_shape().map_err(damaged)?;
+    let chunk = chunk.and_then(|lengths| lengths.first().copied()).unwrap_or(1).max(1);
+    let chunk = usize::try_from(chunk).map_err(|_| too_large())?;
+    let chunk_bytes = chunk.saturating_mul(row_bytes);
+    let most = arrays.iter().map(Columns::wanted_bytes).sum::<usize>().max(MOST_AT_ONCE);
+    Ok(if chunk_bytes <= most {
+        chunk * (BLOCK_BYTES / chunk_bytes).max(1)
+    } else {
+        (most / row_bytes).max(1)
+    })
 }
 
 /// The numbers of the two parts of a complex number, and the offset of the second one in the item, if a type is one: of
@@ -111,17 +133,6 @@ pub(crate) fn complex(of: &Datatype) -> Option<([Number; 2], usize)> {
     let is_complex = matches!(names, ("r", "i") | ("real", "imag")) && real.byte_offset == 0;
     let offset = usize::try_from(imag.byte_offset).ok().filter(|_| is_complex)?;
     Some(([number(&real.datatype)?, number(&imag.datatype)?], offset))
-}
-
-/// Two arrays of the parts of complex numbers.
-pub(crate) fn parts<'a>(
-    bytes: &'a [u8],
-    ([real, imag], offset): ([Number; 2], usize),
-    axes: &[Axis],
-) -> [Array<'a>; 2] {
-    let array =
-        |bytes: &'a [u8], number| Array { bytes: bytes.into(), number, axes: axes.to_vec() };
-    [array(bytes, real), array(bytes.get(offset..).unwrap_or_default(), imag)]
 }
 
 /// Whether items of a type are texts.

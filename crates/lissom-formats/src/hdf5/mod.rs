@@ -5,17 +5,23 @@
 //! Soft and external links are not followed.
 
 pub(crate) mod dataset;
+mod open;
+
+pub(crate) use open::opened;
 
 use std::collections::HashSet;
 
 use hdf5_pure::{Dataset, Datatype, Group, Layout};
 
-use crate::array::{Array, Axis, axes};
+use crate::array::{Array, Axis, MANY_CHANNELS, axes};
+use crate::channel_ref::Wanted;
 use crate::collected::{Collected, LeftOut};
+use crate::columns::Columns;
 use crate::format::Format;
 use crate::format_error::FormatError;
 use crate::guard::guarded;
 use crate::log_data::LogData;
+use crate::source::Source;
 
 /// First bytes of a file.
 pub(crate) const HDF5: &[u8] = b"\x89HDF\r\n\x1a\n";
@@ -44,11 +50,11 @@ const NO_DATA: LeftOut =
     LeftOut { what: "datasets to which nothing was written", way_out: "write the log again" };
 
 /// Reads a file.
-pub(crate) fn read(bytes: &[u8]) -> Result<LogData, FormatError> {
+pub(crate) fn read(source: &Source, wanted: Wanted) -> Result<LogData, FormatError> {
     guarded(Format::Hdf5, || {
-        let file = dataset::opened(bytes)?;
-        let mut found = Collected::new();
-        let mut groups = Groups::default();
+        let file = opened(source)?;
+        let mut found = Collected::of(wanted);
+        let mut groups = Groups { file_bytes: source.length(), ..Groups::default() };
         groups.collect("", &file.root(), 0, &mut found)?;
         if groups.read > MOST_GROUPS {
             found.note(format!("the file has more than {MOST_GROUPS} groups: not all are read"));
@@ -61,6 +67,7 @@ pub(crate) fn read(bytes: &[u8]) -> Result<LogData, FormatError> {
 #[derive(Default)]
 struct Groups {
     read: usize,
+    file_bytes: u64,
     /// Addresses of the data in the file.
     data: HashSet<u64>,
     has_failed: bool,
@@ -142,14 +149,18 @@ impl Groups {
         let Some(axes) = axes(&lengths, dataset::item_size(dataset)?, false) else {
             return Err(dataset::too_large());
         };
-        let bytes = dataset::bytes(dataset, found)?;
-        if bytes.is_empty() {
+        let bytes = dataset::byte_count(dataset, self.file_bytes, found)?;
+        if bytes == 0 {
             return Ok(());
         }
-        let count = bytes.len();
+        let mut fields = Fields { bytes, number: found.channels.len() + 1, all: Vec::new() };
+        fields.add(path, &datatype, (0, axes), found)?;
+        let (paths, mut arrays): (Vec<_>, Vec<_>) = fields.all.into_iter().unzip();
+        dataset::read_values(dataset, &mut arrays)?;
         let first = found.channels.len();
-        collect(path, &datatype, &bytes, &axes, found)?;
-        found.release_bytes(count);
+        for (path, columns) in paths.iter().zip(arrays) {
+            columns.push(path, found);
+        }
         let unit = unit(dataset);
         found.channels.iter_mut().skip(first).for_each(|channel| channel.unit.clone_from(&unit));
         Ok(())
@@ -185,45 +196,76 @@ fn unit(dataset: &Dataset) -> Option<String> {
     Some(unit.as_str()?.trim().to_owned()).filter(|unit| !unit.is_empty())
 }
 
-/// Appends the channels of items of a type, which are at places on axes.
-fn collect(
-    path: &str,
-    of: &Datatype,
-    bytes: &[u8],
-    axes: &[Axis],
-    found: &mut Collected,
-) -> Result<(), FormatError> {
-    if let Some(number) = dataset::number(of) {
-        return Array { bytes: bytes.into(), number, axes: axes.to_vec() }.collect(path, found);
-    }
-    if let Some(numbers) = dataset::complex(of) {
-        let [real, imag] = dataset::parts(bytes, numbers, axes);
-        return Array::collect_complex([&real, &imag], path, found);
-    }
-    match of {
-        Datatype::Array { base_type, dimensions } => {
-            let lengths: Vec<usize> = dimensions.iter().map(|length| *length as usize).collect();
-            let size = base_type.type_size() as usize;
-            let inner = crate::array::axes(&lengths, size, false);
-            let inner = inner.ok_or_else(dataset::too_large)?;
-            collect(path, base_type, bytes, &[axes, &inner].concat(), found)
+/// The arrays of numbers in a dataset.
+struct Fields {
+    /// Number of bytes of the dataset.
+    bytes: usize,
+    /// Number in the file of the next channel.
+    number: usize,
+    /// With their paths.
+    all: Vec<(String, Columns)>,
+}
+
+impl Fields {
+    /// Adds the arrays of numbers of items of a type; the first item begins at an offset.
+    fn add(
+        &mut self,
+        path: &str,
+        of: &Datatype,
+        (offset, axes): (usize, Vec<Axis>),
+        found: &mut Collected,
+    ) -> Result<(), FormatError> {
+        if let Some(number) = dataset::number(of) {
+            return self.push(path, "", &Array { number, offset, axes }, found);
         }
-        Datatype::Compound { members, .. } => {
-            for member in members {
-                let offset = usize::try_from(member.byte_offset).unwrap_or(usize::MAX);
-                let bytes = bytes.get(offset..).unwrap_or_default();
-                collect(&joined(path, &member.name), &member.datatype, bytes, axes, found)?;
+        if let Some(([real, imag], behind)) = dataset::complex(of) {
+            let array = Array { number: real, offset, axes: axes.clone() };
+            self.push(path, "/real", &array, found)?;
+            let array = Array { number: imag, offset: offset.saturating_add(behind), axes };
+            return self.push(path, "/imag", &array, found);
+        }
+        match of {
+            Datatype::Array { base_type, dimensions } => {
+                let lengths: Vec<usize> =
+                    dimensions.iter().map(|length| *length as usize).collect();
+                let size = base_type.type_size() as usize;
+                let inner = crate::array::axes(&lengths, size, false);
+                let inner = inner.ok_or_else(dataset::too_large)?;
+                self.add(path, base_type, (offset, [axes, inner].concat()), found)
             }
-            Ok(())
+            Datatype::Compound { members, .. } => {
+                for member in members {
+                    let behind = usize::try_from(member.byte_offset).unwrap_or(usize::MAX);
+                    let place = (offset.saturating_add(behind), axes.clone());
+                    self.add(&joined(path, &member.name), &member.datatype, place, found)?;
+                }
+                Ok(())
+            }
+            of if dataset::is_text(of) => Ok(()),
+            Datatype::FixedPoint { .. } | Datatype::FloatingPoint { .. } => {
+                found.leave_out(path, &UNUSUAL);
+                Ok(())
+            }
+            _ => {
+                found.leave_out(path, &NO_NUMBERS);
+                Ok(())
+            }
         }
-        of if dataset::is_text(of) => Ok(()),
-        Datatype::FixedPoint { .. } | Datatype::FloatingPoint { .. } => {
-            found.leave_out(path, &UNUSUAL);
-            Ok(())
+    }
+
+    fn push(
+        &mut self,
+        path: &str,
+        part: &'static str,
+        array: &Array,
+        found: &mut Collected,
+    ) -> Result<(), FormatError> {
+        let columns = array.columns(path, part, Some(self.number), self.bytes, found)?;
+        if columns.has_too_many {
+            found.leave_out(path, &MANY_CHANNELS);
         }
-        _ => {
-            found.leave_out(path, &NO_NUMBERS);
-            Ok(())
-        }
+        self.number += columns.columns.len();
+        self.all.push((path.to_owned(), columns));
+        Ok(())
     }
 }

@@ -5,6 +5,7 @@
 
 mod elements;
 mod left_out;
+mod matrix;
 mod v4;
 mod v5;
 #[cfg(feature = "hdf5")]

@@ -2,25 +2,31 @@
 
 use super::left_out::SPARSE;
 use crate::array::{Array, axes};
+use crate::channel_ref::Wanted;
 use crate::collected::Collected;
+use crate::columns::read_values;
 use crate::cursor::Cursor;
 use crate::format::Format;
 use crate::format_error::FormatError;
 use crate::log_data::LogData;
 use crate::number::{Number, NumberType};
+use crate::source::Source;
+use crate::stream::Stream;
 
 /// Longest name with its final zero; MATLAB's are shorter.
 const MOST_NAME: usize = 256;
+/// Bytes of a header with the longest name.
+const MOST_HEADER: u64 = 20 + MOST_NAME as u64;
 
 /// A matrix of a file.
-struct Matrix<'a> {
+struct Matrix {
     name: String,
     number: Number,
     class: u32,
     is_complex: bool,
     lengths: [usize; 2],
-    /// The bytes behind the header.
-    rest: Cursor<'a>,
+    /// Bytes of the header.
+    header_bytes: usize,
 }
 
 /// Whether a file begins as a MATLAB file of version 4 does. There is no mark: the header must make sense.
@@ -29,60 +35,75 @@ pub(crate) fn begins(bytes: &[u8]) -> bool {
 }
 
 /// Reads a file.
-pub(crate) fn read(bytes: &[u8]) -> Result<LogData, FormatError> {
-    let mut found = Collected::new();
-    let mut rest = bytes;
-    while !rest.is_empty() {
-        let Some(matrix) = header(rest) else {
+pub(crate) fn read(source: &Source, wanted: Wanted) -> Result<LogData, FormatError> {
+    let mut found = Collected::of(wanted);
+    let mut place = 0;
+    while place < source.length() {
+        let bytes = source.bytes(place..place + MOST_HEADER)?;
+        let Some(matrix) = header(&bytes) else {
             found.note("the file ends inside the header of a matrix, or is damaged there");
             break;
         };
-        let Some(after) = collect(matrix, &mut found)? else { break };
-        rest = after;
+        let begin = place + matrix.header_bytes as u64;
+        let Some(bytes) = matrix.bytes().filter(|bytes| *bytes as u64 <= source.length() - begin)
+        else {
+            found.note(format!("the file ends inside {}, which is left out", matrix.name));
+            break;
+        };
+        place = begin + bytes as u64;
+        matrix.collect(bytes, source.part(begin..place), &mut found)?;
     }
     found.finish(Format::Matlab)
 }
 
-/// Appends the channels of a matrix, and returns the bytes behind it; `None` if the file ends inside it.
-fn collect<'a>(
-    mut matrix: Matrix<'a>,
-    found: &mut Collected,
-) -> Result<Option<&'a [u8]>, FormatError> {
-    let [rows, columns] = matrix.lengths;
-    let parts = if matrix.is_complex { 2 } else { 1 };
-    let size = matrix.number.kind.size();
-    let whole = rows.checked_mul(columns).and_then(|n| n.checked_mul(size * parts));
-    let Some(bytes) = whole.and_then(|whole| matrix.rest.take(whole)) else {
-        found.note(format!("the file ends inside {}, which is left out", matrix.name));
-        return Ok(None);
-    };
-    let name = &matrix.name;
-    match matrix.class {
-        0 => {
-            if let Some(axes) = axes(&matrix.lengths, size, true) {
-                let number = matrix.number;
-                let array =
-                    |bytes: &'a [u8]| Array { bytes: bytes.into(), number, axes: axes.clone() };
-                let (real, imag) = bytes.split_at(bytes.len() / parts);
-                if matrix.is_complex {
-                    Array::collect_complex([&array(real), &array(imag)], name, found)?;
-                } else {
-                    array(real).collect(name, found)?;
-                }
+impl Matrix {
+    /// Its number of bytes; `None` if it is too large for this computer.
+    fn bytes(&self) -> Option<usize> {
+        let [rows, columns] = self.lengths;
+        let size = self.number.kind.size() * if self.is_complex { 2 } else { 1 };
+        rows.checked_mul(columns)?.checked_mul(size)
+    }
+
+    /// Appends its channels.
+    fn collect(
+        &self,
+        bytes: usize,
+        mut content: Stream,
+        found: &mut Collected,
+    ) -> Result<(), FormatError> {
+        let (name, number) = (&self.name, self.number);
+        let size = number.kind.size();
+        match self.class {
+            0 => {}
+            1 => return Ok(()),
+            _ => {
+                found.leave_out(name, &SPARSE);
+                return Ok(());
             }
         }
-        1 => {}
-        _ => found.leave_out(name, &SPARSE),
+        let Some(axes) = axes(&self.lengths, size, true) else { return Ok(()) };
+        let mut arrays = Vec::new();
+        let mut first = found.channels.len() + 1;
+        let parts: &[&str] = if self.is_complex { &["/real", "/imag"] } else { &[""] };
+        for (k, part) in parts.iter().enumerate() {
+            let offset = k * bytes / 2;
+            let array = Array { number, offset, axes: axes.clone() };
+            let columns = array.columns(name, part, Some(first), bytes, found)?;
+            first += columns.columns.len();
+            arrays.push(columns);
+        }
+        read_values(&mut arrays, size, bytes as u64, &mut content)?;
+        arrays.into_iter().for_each(|columns| columns.push(name, found));
+        Ok(())
     }
-    Ok(Some(matrix.rest.rest()))
 }
 
-fn header(bytes: &[u8]) -> Option<Matrix<'_>> {
+fn header(bytes: &[u8]) -> Option<Matrix> {
     [false, true].into_iter().find_map(|big_endian| header_of(bytes, big_endian))
 }
 
 /// The header of a matrix; `None` if the bytes are none.
-fn header_of(bytes: &[u8], big_endian: bool) -> Option<Matrix<'_>> {
+fn header_of(bytes: &[u8], big_endian: bool) -> Option<Matrix> {
     let mut cursor = Cursor::new(bytes, big_endian);
     // Decimal digits: byte order, zero, type of the numbers, class of the matrix.
     let code = cursor.u32()?;
@@ -113,5 +134,6 @@ fn header_of(bytes: &[u8], big_endian: bool) -> Option<Matrix<'_>> {
         return None;
     }
     let number = Number::new(kind, big_endian);
-    Some(Matrix { name, number, class, is_complex, lengths, rest: cursor })
+    let header_bytes = bytes.len() - cursor.rest().len();
+    Some(Matrix { name, number, class, is_complex, lengths, header_bytes })
 }

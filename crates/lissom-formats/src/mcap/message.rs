@@ -178,7 +178,7 @@ fn is_time(name: &str) -> bool {
 }
 
 /// A message that is read.
-struct Message<'a, 'b> {
+struct Message<'a, 'b, 'w> {
     cdr: Cdr<'a>,
     of: &'b Definitions,
     /// Names of the places of arrays.
@@ -187,10 +187,10 @@ struct Message<'a, 'b> {
     /// Whether the numbers are skipped.
     is_muted: bool,
     topic: &'b mut Topic,
-    found: &'b mut Collected,
+    found: &'b mut Collected<'w>,
 }
 
-impl Message<'_, '_> {
+impl Message<'_, '_, '_> {
     fn read(&mut self, place: &mut Place) -> Result<(), Wrong> {
         match place {
             Place::Number { kind, path, column } => {

@@ -50,13 +50,13 @@ pub(super) fn append(
 }
 
 /// Appends chunks of raw data.
-struct Chunks<'a> {
+struct Chunks<'a, 'w> {
     objects: &'a mut Objects,
     big_endian: bool,
-    found: &'a mut Collected,
+    found: &'a mut Collected<'w>,
 }
 
-impl Chunks<'_> {
+impl Chunks<'_, '_> {
     /// Rows with a value of each object.
     fn interleaved(
         &mut self,

@@ -1,0 +1,119 @@
+//! Bytes in their order, of which only a block is in memory.
+
+use std::io::{self, BufRead, Read};
+use std::ops::Range;
+
+use crate::format_error::FormatError;
+use crate::source::Source;
+
+/// Bytes that are read from the disk at once.
+const BLOCK_BYTES: usize = 1 << 17;
+
+/// Bytes that are read from the first to the last.
+pub(crate) trait Input {
+    /// The next bytes; `None` if there are fewer.
+    fn next_bytes(&mut self, count: usize) -> Result<Option<&[u8]>, FormatError>;
+
+    /// Skips bytes; `None` if there are fewer.
+    fn skip(&mut self, count: u64) -> Result<Option<()>, FormatError>;
+}
+
+/// Bytes of a file.
+#[derive(Debug)]
+pub(crate) struct Stream {
+    source: Source,
+    /// Place of the next byte in the file.
+    at: u64,
+    end: u64,
+    /// Bytes of the file, if it is on the disk.
+    block: Vec<u8>,
+    /// Place of the block in the file.
+    block_at: u64,
+}
+
+impl Stream {
+    /// The bytes in a range that the file has.
+    pub(crate) fn new(source: Source, range: Range<u64>) -> Self {
+        let Range { start: at, end } = range;
+        Self { source, at, end, block: Vec::new(), block_at: at }
+    }
+
+    /// Place of the next byte in the file.
+    pub(crate) fn place(&self) -> u64 {
+        self.at
+    }
+
+    /// Number of bytes that are not yet read.
+    pub(crate) fn left(&self) -> u64 {
+        self.end - self.at
+    }
+
+    /// Reads a block that begins with the next bytes, unless they are in memory.
+    fn load(&mut self, count: usize) -> io::Result<()> {
+        if matches!(self.source, Source::Memory(_)) {
+            return Ok(());
+        }
+        let loaded = self.block_at..self.block_at + self.block.len() as u64;
+        if loaded.start <= self.at && self.at + count as u64 <= loaded.end {
+            return Ok(());
+        }
+        // A block for a single long record is not kept.
+        if self.block.len() > BLOCK_BYTES {
+            self.block = Vec::new();
+        }
+        let length = (count.max(BLOCK_BYTES) as u64).min(self.left());
+        self.block.resize(length as usize, 0);
+        self.block_at = self.at;
+        self.source.read_at(self.at, &mut self.block)
+    }
+
+    /// The bytes in memory that begin with the next one.
+    fn loaded(&self) -> &[u8] {
+        let (bytes, at) = match &self.source {
+            Source::Memory(bytes) => (bytes.get(..self.end as usize).unwrap_or_default(), 0),
+            Source::File { .. } => (&self.block[..], self.block_at),
+        };
+        bytes.get((self.at - at) as usize..).unwrap_or_default()
+    }
+}
+
+impl Input for Stream {
+    /// If there are fewer bytes, none is read.
+    fn next_bytes(&mut self, count: usize) -> Result<Option<&[u8]>, FormatError> {
+        if count as u64 > self.left() {
+            return Ok(None);
+        }
+        self.load(count)?;
+        self.at += count as u64;
+        let (bytes, at) = match &self.source {
+            Source::Memory(bytes) => (&bytes[..], 0),
+            Source::File { .. } => (&self.block[..], self.block_at),
+        };
+        let end = (self.at - at) as usize;
+        Ok(bytes.get(end - count..end))
+    }
+
+    /// If there are fewer bytes, none is skipped.
+    fn skip(&mut self, count: u64) -> Result<Option<()>, FormatError> {
+        Ok((count <= self.left()).then(|| self.at += count))
+    }
+}
+
+impl BufRead for Stream {
+    fn fill_buf(&mut self) -> io::Result<&[u8]> {
+        self.load(usize::from(self.left() > 0))?;
+        Ok(self.loaded())
+    }
+
+    fn consume(&mut self, count: usize) {
+        self.at = (self.at + count as u64).min(self.end);
+    }
+}
+
+impl Read for Stream {
+    fn read(&mut self, out: &mut [u8]) -> io::Result<usize> {
+        let read = self.fill_buf()?.read(out)?;
+        self.consume(read);
+        Ok(read)
+    }
+}
