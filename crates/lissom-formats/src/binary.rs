@@ -26,29 +26,17 @@ struct Binary {
 const BINARY: &[Binary] = &[
     Binary { begins: |bytes| bytes.starts_with(numpy::NPY), read: numpy::read_npy },
     Binary { begins: matlab::begins_v5, read: matlab::read_v5 },
-    Binary {
-        begins: |bytes| bytes.starts_with(wpilog::WPILOG),
-        read: |source, _| wpilog::read(&source.all()?),
-    },
-    Binary {
-        begins: |bytes| bytes.starts_with(tdms::TDMS),
-        read: |source, _| tdms::read(&source.all()?),
-    },
+    Binary { begins: |bytes| bytes.starts_with(wpilog::WPILOG), read: wpilog::read },
+    Binary { begins: |bytes| bytes.starts_with(tdms::TDMS), read: tdms::read },
     Binary { begins: uff58::begins, read: |source, _| uff58::read(&source.all()?) },
     #[cfg(feature = "hdf5")]
     Binary { begins: |bytes| bytes.starts_with(hdf5::HDF5), read: hdf5::read },
     #[cfg(feature = "hdf5")]
     Binary { begins: |bytes| bytes.starts_with(matlab::MATLAB_73), read: matlab::read_v73 },
     #[cfg(feature = "mcap")]
-    Binary {
-        begins: |bytes| bytes.starts_with(mcap::MCAP),
-        read: |source, _| mcap::read(&source.all()?),
-    },
+    Binary { begins: |bytes| bytes.starts_with(mcap::MCAP), read: mcap::read },
     #[cfg(feature = "parquet")]
-    Binary {
-        begins: |bytes| bytes.starts_with(parquet_file::PARQUET),
-        read: |source, _| parquet_file::read(&source.all()?),
-    },
+    Binary { begins: |bytes| bytes.starts_with(parquet_file::PARQUET), read: parquet_file::read },
     Binary { begins: matlab::begins_v4, read: matlab::read_v4 },
 ];
 

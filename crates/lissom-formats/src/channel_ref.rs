@@ -55,6 +55,45 @@ impl<'a> Wanted<'a> {
         self.has_at(name, None)
     }
 
+    /// Whether a channel `BEFORE[PLACE]AFTER` may be asked for, with any place.
+    pub(crate) fn has_place(self, before: &str, after: &str) -> bool {
+        let before = bare_name(before);
+        let last = match after.rsplit_once('/') {
+            Some((_, last)) => last,
+            None => before.rsplit('/').next().unwrap_or_default(),
+        };
+        let is_place = |place: &str| place.starts_with('[') && place.ends_with(']');
+        let has = |wanted: &str| {
+            let of = wanted.strip_prefix(before).and_then(|rest| rest.strip_suffix(after));
+            let of_last = match after.contains('/') {
+                true => wanted == last,
+                false => wanted.strip_prefix(last).is_some_and(is_place),
+            };
+            of.is_some_and(is_place) || of_last
+        };
+        self.0.is_none_or(|channels| {
+            channels.iter().any(|channel| match channel {
+                ChannelRef::Name(wanted) => has(bare_name(wanted)),
+                ChannelRef::Number(_) => true,
+            })
+        })
+    }
+
+    /// Whether a channel of a group may be asked for: by a path in it, or by a name that `may_be_in` it.
+    #[cfg(feature = "mcap")]
+    pub(crate) fn has_in(self, group: &str, may_be_in: impl Fn(&str) -> bool) -> bool {
+        self.0.is_none_or(|channels| {
+            channels.iter().any(|channel| match channel {
+                ChannelRef::Name(wanted) => {
+                    let wanted = bare_name(wanted);
+                    wanted.starts_with(bare_name(group))
+                        || (!wanted.contains('/') && may_be_in(wanted))
+                }
+                ChannelRef::Number(_) => true,
+            })
+        })
+    }
+
     /// Whether a channel may be asked for by this name or this number, from 1; `None` if its number is not known yet.
     pub(crate) fn has_at(self, name: &str, number: Option<usize>) -> bool {
         let name = bare_name(name);
@@ -86,5 +125,14 @@ mod tests {
         let third = Wanted::of(&third);
         assert!(third.has("q") && third.has_at("q", Some(3)) && !third.has_at("q", Some(2)));
         assert!(Wanted::ALL.has("q"));
+    }
+
+    #[test]
+    fn places_that_are_asked_for() {
+        let has = |wanted: &str, before: &str, after: &str| {
+            Wanted::of(&[ChannelRef::Name(wanted.to_owned())]).has_place(before, after)
+        };
+        assert!(has("a/q[2]", "a/q", "") && has("q[2]", "a/q", "") && has("x", "a/q", "/p/x"));
+        assert!(has("a/q[2]/x", "a/q", "/x") && !has("q[2]", "a/q", "/x") && !has("q", "a/q", ""));
     }
 }

@@ -31,9 +31,12 @@ impl<R: Read> Expanded<R> {
         FormatError::Damaged { reason: format!("{}{reason}", self.place) }
     }
 
-    /// Reads on to the end, which checks what the decoder checks, and returns the number of all bytes.
-    pub(crate) fn finish(&mut self) -> Result<u64, FormatError> {
-        self.skip(u64::MAX)?;
+    /// Reads on to the end, at most one byte further than a place. Returns the number of all bytes.
+    ///
+    /// At the end the decoder checks the checksum, if it knows one.
+    pub(crate) fn finish(&mut self, place: u64) -> Result<u64, FormatError> {
+        self.skip(place.saturating_sub(self.read))?;
+        self.skip(1)?;
         Ok(self.read)
     }
 }

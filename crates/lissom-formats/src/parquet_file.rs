@@ -8,20 +8,25 @@ use parquet::basic::{LogicalType, TimeUnit, Type};
 use parquet::column::reader::{ColumnReader, ColumnReaderImpl};
 use parquet::data_type::DataType;
 use parquet::errors::ParquetError;
-use parquet::file::reader::{FileReader, SerializedFileReader};
+use parquet::file::reader::{ChunkReader, FileReader, Length, SerializedFileReader};
 use parquet::schema::types::ColumnDescriptor;
 
+use crate::channel_ref::Wanted;
 use crate::collected::{Collected, LeftOut};
 use crate::format::Format;
 use crate::format_error::FormatError;
 use crate::guard::guarded;
 use crate::log_data::{Channel, LogData};
 use crate::number::half;
+use crate::source::Source;
+use crate::stream::Stream;
 
 /// First bytes of a file.
 pub(crate) const PARQUET: &[u8] = b"PAR1";
 /// Rows that are decoded at once.
 const BATCH_ROWS: usize = 8192;
+/// Bytes that are read at once for the header of a page.
+const HEADER_BYTES: usize = 4096;
 
 const LISTS: LeftOut = LeftOut {
     what: "columns of lists or maps",
@@ -32,16 +37,50 @@ const BINARY: LeftOut = LeftOut {
     way_out: "in Python: df.to_csv(\"log.csv\")",
 };
 
+/// A file whose pages are read one by one.
+struct Pages(Source);
+
+impl Length for Pages {
+    fn len(&self) -> u64 {
+        self.0.length()
+    }
+}
+
+impl ChunkReader for Pages {
+    type T = Stream;
+
+    fn get_read(&self, start: u64) -> Result<Self::T, ParquetError> {
+        if start > self.len() {
+            let length = self.len();
+            return Err(ParquetError::EOF(format!(
+                "Expected to read at offset {start}, while file has length {length}"
+            )));
+        }
+        Ok(self.0.stream(start).in_blocks_of(HEADER_BYTES))
+    }
+
+    fn get_bytes(&self, start: u64, count: usize) -> Result<Bytes, ParquetError> {
+        let end = start.saturating_add(count as u64);
+        if end > self.len() {
+            let length = self.len();
+            return Err(ParquetError::EOF(format!(
+                "Expected to read {count} bytes at offset {start}, while file has length {length}"
+            )));
+        }
+        Ok(self.0.bytes(start..end)?.into_owned().into())
+    }
+}
+
 #[expect(clippy::needless_pass_by_value, reason = "for map_err")]
 fn damaged(error: ParquetError) -> FormatError {
     FormatError::content("Parquet file", error.to_string())
 }
 
 /// Reads a file.
-pub(crate) fn read(bytes: &[u8]) -> Result<LogData, FormatError> {
+pub(crate) fn read(source: &Source, wanted: Wanted) -> Result<LogData, FormatError> {
     guarded(Format::Parquet, || {
-        let file = SerializedFileReader::new(Bytes::copy_from_slice(bytes)).map_err(damaged)?;
-        let mut found = Collected::new();
+        let file = SerializedFileReader::new(Pages(source.clone())).map_err(damaged)?;
+        let mut found = Collected::of(wanted);
         let schema = file.metadata().file_metadata().schema_descr_ptr();
         for (index, column) in schema.columns().iter().enumerate() {
             let name = column.path().parts().join("/");
@@ -55,7 +94,13 @@ pub(crate) fn read(bytes: &[u8]) -> Result<LogData, FormatError> {
             };
             let level = column.max_def_level();
             let mut reader = Column { kind, level, first: None, values: Vec::new() };
-            match reader.read(&file, index, &mut found) {
+            let is_wanted = wanted.has_at(&name, Some(found.channels.len() + 1));
+            let read = if is_wanted {
+                reader.read(&file, index, &mut found)
+            } else {
+                reader.begin(&file, index)
+            };
+            match read {
                 Ok(()) => found.channels.push(reader.channel(name)),
                 Err(error @ FormatError::TooLarge { .. }) => return Err(error),
                 Err(error) => {
@@ -156,7 +201,7 @@ impl Column {
     /// Reads the column of all groups of rows.
     fn read(
         &mut self,
-        file: &SerializedFileReader<Bytes>,
+        file: &SerializedFileReader<Pages>,
         index: usize,
         found: &mut Collected,
     ) -> Result<(), FormatError> {
@@ -167,6 +212,18 @@ impl Column {
             self.group(reader, rows, found)?;
         }
         Ok(())
+    }
+
+    /// Reads the first value: a column that cannot be read is left out, whether it is wanted or not.
+    fn begin(&self, file: &SerializedFileReader<Pages>, index: usize) -> Result<(), FormatError> {
+        if file.num_row_groups() == 0 {
+            return Ok(());
+        }
+        let group = file.get_row_group(0).map_err(damaged)?;
+        let reader = group.get_column_reader(index).map_err(damaged)?;
+        let rows = group.metadata().num_rows().clamp(0, 1) as usize;
+        let mut first = Self { values: Vec::new(), ..*self };
+        first.group(reader, rows, &mut Collected::new())
     }
 
     fn group(

@@ -6,7 +6,7 @@ use std::ops::Range;
 use crate::format_error::FormatError;
 use crate::source::Source;
 
-/// Bytes that are read from the disk at once.
+/// Bytes that are usually read from the disk at once.
 const BLOCK_BYTES: usize = 1 << 17;
 
 /// Bytes that are read from the first to the last.
@@ -29,13 +29,21 @@ pub(crate) struct Stream {
     block: Vec<u8>,
     /// Place of the block in the file.
     block_at: u64,
+    /// Bytes that are read from the disk at once.
+    block_bytes: usize,
 }
 
 impl Stream {
     /// The bytes in a range that the file has.
     pub(crate) fn new(source: Source, range: Range<u64>) -> Self {
         let Range { start: at, end } = range;
-        Self { source, at, end, block: Vec::new(), block_at: at }
+        Self { source, at, end, block: Vec::new(), block_at: at, block_bytes: BLOCK_BYTES }
+    }
+
+    /// The same, of which other numbers of bytes are read at once.
+    #[cfg(feature = "parquet")]
+    pub(crate) fn in_blocks_of(self, block_bytes: usize) -> Self {
+        Self { block_bytes, ..self }
     }
 
     /// Place of the next byte in the file.
@@ -58,10 +66,10 @@ impl Stream {
             return Ok(());
         }
         // A block for a single long record is not kept.
-        if self.block.len() > BLOCK_BYTES {
+        if self.block.len() > self.block_bytes {
             self.block = Vec::new();
         }
-        let length = (count.max(BLOCK_BYTES) as u64).min(self.left());
+        let length = (count.max(self.block_bytes) as u64).min(self.left());
         self.block.resize(length as usize, 0);
         self.block_at = self.at;
         self.source.read_at(self.at, &mut self.block)

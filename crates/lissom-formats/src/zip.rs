@@ -197,7 +197,7 @@ impl Content {
 
     /// Reads on to the end, and checks the checksum.
     pub(crate) fn finish(&mut self) -> Result<(), FormatError> {
-        self.bytes.finish()?;
+        self.bytes.finish(self.expanded)?;
         let crc = self.bytes.decoder().crc();
         if crc.sum() != self.crc || crc.amount() != self.expanded as u32 {
             return Err(self.bytes.damaged("the checksum is wrong"));

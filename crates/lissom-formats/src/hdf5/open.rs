@@ -17,6 +17,11 @@ pub(crate) fn opened(source: &Source) -> Result<File, FormatError> {
     File::from_source_with_options(source, properties).map_err(damaged)
 }
 
+#[expect(clippy::needless_pass_by_value, reason = "for map_err")]
+fn failed(error: io::Error) -> Hdf5Error {
+    Hdf5Error::Source(error.to_string())
+}
+
 /// A file whose groups of the older kind have no soft links: the library takes them for damage and reads none of the group.
 struct WithoutSoftLinks(Source);
 
@@ -26,14 +31,17 @@ impl hdf5_pure::Source for WithoutSoftLinks {
     }
 
     fn read_at(&self, place: u64, out: &mut [u8]) -> Result<(), Hdf5Error> {
-        let failed = |error: io::Error| Hdf5Error::Source(error.to_string());
+        let end = place.saturating_add(out.len() as u64);
+        if end > self.len() {
+            let (expected, available) = (end as usize, self.len() as usize);
+            return Err(Hdf5Error::UnexpectedEof { expected, available });
+        }
         self.0.read_at(place, out).map_err(failed)
     }
 
     fn read_metadata_at(&self, place: u64, count: usize) -> Result<Vec<u8>, Hdf5Error> {
         let mut bytes = self.read_exact_at(place, count)?;
         if let Some(entries) = count_of_node(&bytes) {
-            let failed = |error: io::Error| Hdf5Error::Source(error.to_string());
             let end = place + (NODE_BYTES + entries * ENTRY_BYTES) as u64;
             let mut node = self.0.bytes(place..end).map_err(failed)?.into_owned();
             remove_soft_links(&mut node, entries);

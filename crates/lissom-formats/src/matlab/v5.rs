@@ -93,8 +93,10 @@ fn compressed(data: Stream, big_endian: bool, found: &mut Collected) -> Result<(
     let most = data.left().saturating_mul(LARGEST_RATIO).saturating_add(TAG_BYTES as u64);
     let mut expanded = Expanded::new(ZlibDecoder::new(data), String::new());
     let tag = expanded.next_bytes(TAG_BYTES)?.ok_or_else(|| damaged("they end too early"))?;
-    let element = Element::of(tag, 0, most, big_endian);
-    let element = element.ok_or_else(|| damaged("they end too early"))?;
+    let Some(element) = Element::of(tag, 0, most, big_endian) else {
+        expanded.finish(most)?;
+        return Err(damaged("they end too early"));
+    };
     let mut read = None;
     let mut is_skipped = false;
     if element.kind == MATRIX {
@@ -104,7 +106,7 @@ fn compressed(data: Stream, big_endian: bool, found: &mut Collected) -> Result<(
     }
     if !is_skipped {
         // Reading on to the end checks the checksum.
-        let bytes = expanded.finish()?;
+        let bytes = expanded.finish(element.end)?;
         if element.kind == COMPRESSED || bytes < element.end {
             return Err(damaged("they end too early"));
         }

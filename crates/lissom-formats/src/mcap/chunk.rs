@@ -47,18 +47,23 @@ pub(super) fn records<'a>(
 ) -> Result<Cow<'a, [u8]>, FormatError> {
     let damaged = |reason: &str| FormatError::Damaged { reason: reason.to_owned() };
     let chunk = chunk(content).filter(|c| c.is_whole).ok_or_else(|| damaged("they are cut off"))?;
-    let mut decoder = chunk.decoder()?;
-    let mut records = Vec::new();
     chunk.take(found)?;
-    let read = decoder.by_ref().take(chunk.size.saturating_add(1)).read_to_end(&mut records);
-    read.map_err(|error| damaged(&error.to_string()))?;
+    let records = if chunk.compression.is_empty() {
+        Cow::Borrowed(chunk.packed)
+    } else {
+        let mut records = Vec::new();
+        let mut decoder = chunk.decoder()?;
+        let read = decoder.by_ref().take(chunk.size.saturating_add(1)).read_to_end(&mut records);
+        read.map_err(|error| damaged(&error.to_string()))?;
+        Cow::Owned(records)
+    };
     let mut crc = Crc::new();
     crc.update(&records);
     if records.len() as u64 != chunk.size || (chunk.crc != 0 && crc.sum() != chunk.crc) {
         found.release_bytes(usize::try_from(chunk.size).unwrap_or(0));
         return Err(damaged("the checksum is wrong"));
     }
-    Ok(Cow::Owned(records))
+    Ok(records)
 }
 
 /// The records at the beginning of a chunk that is cut off.

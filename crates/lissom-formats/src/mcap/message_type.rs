@@ -68,6 +68,11 @@ impl Definitions {
         self.messages.insert(name, fields);
     }
 
+    /// Whether any of the messages has a field of this name.
+    pub(super) fn have_field(&self, name: &str) -> bool {
+        self.messages.values().flatten().any(|field| field.name == name)
+    }
+
     pub(super) fn message(&self, name: &str) -> Option<&[Field]> {
         self.messages.get(name).map(Vec::as_slice)
     }

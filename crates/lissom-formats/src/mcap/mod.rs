@@ -4,7 +4,7 @@
 //!
 //! Each number of a message is a channel, `/topic/field/x`. The time of a topic is `/topic/time`, in seconds from the first
 //! stamp of the file: the stamp in the header of its messages, else their log time. The file is read from its beginning, so
-//! that it needs no index and no end.
+//! that it needs no index and no end. One chunk is in memory, compressed and expanded.
 
 mod cdr;
 mod chunk;
@@ -17,11 +17,14 @@ mod topic;
 use std::collections::HashMap;
 use std::rc::Rc;
 
+use crate::channel_ref::Wanted;
 use crate::collected::{Collected, LeftOut};
 use crate::cursor::Cursor;
 use crate::format::Format;
 use crate::format_error::FormatError;
 use crate::log_data::LogData;
+use crate::source::Source;
+use crate::stream::{Input, Stream};
 use message::{MessageReader, UNDEFINED};
 use message_type::{Definitions, plain};
 use topic::Topic;
@@ -53,6 +56,19 @@ enum Encoding {
     Json,
 }
 
+impl Encoding {
+    /// Whether the last part of the name of a channel may be this one.
+    fn has_field(&self, name: &str) -> bool {
+        match self {
+            // In brackets may be any name of a place.
+            Self::Ros2 { definitions, .. } => {
+                name.ends_with(']') || topic::is_time(name) || definitions.have_field(name)
+            }
+            Self::Json => true,
+        }
+    }
+}
+
 /// A channel of a file: the place of its topic.
 struct ChannelReader {
     topic: usize,
@@ -71,31 +87,44 @@ struct Reader {
 }
 
 /// Reads a file.
-pub(crate) fn read(bytes: &[u8]) -> Result<LogData, FormatError> {
-    let mut found = Collected::new();
+pub(crate) fn read(source: &Source, wanted: Wanted) -> Result<LogData, FormatError> {
+    let mut found = Collected::of(wanted);
     let mut reader = Reader::default();
-    let mut cursor = Cursor::new(bytes.strip_prefix(MCAP).unwrap_or_default(), false);
+    let mut stream = source.stream(MCAP.len() as u64);
     loop {
-        let place = bytes.len() - cursor.rest().len();
-        match record(&mut cursor) {
-            Some((DATA_END, _)) => break,
-            Some((CHUNK, content)) => reader.chunk(content, place, &mut found)?,
-            Some((kind, content)) => reader.record(kind, content, &mut found)?,
-            None => {
-                found.note(format!(
-                    "the file has no end, as after a recording that was interrupted: it is read to byte {place}"
-                ));
-                // Of a chunk that is cut off, the first messages may be there.
-                if let Some((&CHUNK, content)) = cursor.rest().split_first() {
-                    let content = content.get(8..).unwrap_or_default();
-                    reader.cut_chunk(content, &mut found)?;
-                }
-                break;
-            }
+        let place = stream.place();
+        let Some((kind, length)) = header(&mut stream)? else {
+            reader.cut(source, place, &mut found)?;
+            break;
+        };
+        if kind == DATA_END {
+            break;
+        }
+        if !matches!(kind, CHUNK | SCHEMA | CHANNEL | MESSAGE) {
+            stream.skip(length as u64)?;
+            continue;
+        }
+        let Some(content) = stream.next_bytes(length)? else { break };
+        if kind == CHUNK {
+            reader.chunk(content, place, &mut found)?;
+        } else {
+            reader.record(kind, content, &mut found)?;
         }
     }
     topic::collect(reader.topics, &mut found)?;
     found.finish(Format::Mcap)
+}
+
+/// Type and length of the next record; `None` if the file ends before its end.
+fn header(stream: &mut Stream) -> Result<Option<(u8, usize)>, FormatError> {
+    /// Bytes before the content of a record.
+    const BYTES: usize = 9;
+    let Some(bytes) = stream.next_bytes(BYTES)? else { return Ok(None) };
+    let mut cursor = Cursor::new(bytes, false);
+    let header = cursor.u8().zip(cursor.u64());
+    Ok(header
+        .filter(|(_, length)| *length <= stream.left())
+        .map(|(kind, length)| (kind, length as usize)))
 }
 
 /// Type and content of the next record; `None` if the file ends before its end.
@@ -114,11 +143,32 @@ fn text(cursor: &mut Cursor) -> Option<String> {
 }
 
 impl Reader {
+    /// Reads what there is of the record at the end of a file that has no end.
+    fn cut(
+        &mut self,
+        source: &Source,
+        place: u64,
+        found: &mut Collected,
+    ) -> Result<(), FormatError> {
+        found.note(format!(
+            "the file has no end, as after a recording that was interrupted: it is read to byte {place}"
+        ));
+        // Of a chunk that is cut off, the first messages may be there.
+        if *source.bytes(place..place + 1)? == [CHUNK] {
+            let content = source.bytes(place + 9..u64::MAX)?;
+            if let Some(records) = chunk::first_records(&content, found)? {
+                self.records(&records, found)?;
+                found.release_bytes(records.len());
+            }
+        }
+        Ok(())
+    }
+
     /// Reads the records in a chunk.
     fn chunk(
         &mut self,
         content: &[u8],
-        place: usize,
+        place: u64,
         found: &mut Collected,
     ) -> Result<(), FormatError> {
         let records = match chunk::records(content, found) {
@@ -129,14 +179,6 @@ impl Reader {
                 return Ok(());
             }
         };
-        self.records(&records, found)?;
-        found.release_bytes(records.len());
-        Ok(())
-    }
-
-    /// Reads the records at the beginning of a chunk that is cut off.
-    fn cut_chunk(&mut self, content: &[u8], found: &mut Collected) -> Result<(), FormatError> {
-        let Some(records) = chunk::first_records(content, found)? else { return Ok(()) };
         self.records(&records, found)?;
         found.release_bytes(records.len());
         Ok(())
@@ -214,10 +256,11 @@ impl Reader {
                 return Some(());
             }
         };
+        let is_wanted = found.wanted.has_in(&topic, |name| encoding.has_field(name));
         let key = (topic, name.to_owned());
         let topics = &mut self.topics;
         let place = *self.places.entry(key).or_insert_with_key(|(topic, _)| {
-            topics.push(Topic::new(topic.clone()));
+            topics.push(Topic::new(topic.clone(), is_wanted));
             topics.len() - 1
         });
         self.channels.insert(number, Some(ChannelReader { topic: place, encoding }));

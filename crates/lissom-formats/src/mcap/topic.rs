@@ -18,28 +18,68 @@ const MANY: LeftOut = LeftOut {
     way_out: "record the fields that are needed as a topic of their own",
 };
 
+/// Names of the channel of times; the second one if a field has the first one.
+const TIME: [&str; 2] = ["time", "log_time"];
+
+/// Whether a channel of times has this name.
+pub(super) fn is_time(name: &str) -> bool {
+    TIME.contains(&name)
+}
+
 /// A field of all messages.
 #[derive(Debug)]
 struct Column {
     name: String,
+    /// Whether its values are kept.
+    is_wanted: bool,
     values: Vec<f64>,
+}
+
+/// Times of the messages of a topic \[ns\].
+#[derive(Debug, Default)]
+struct Times {
+    first: Option<i64>,
+    /// Empty if no channel of the topic is wanted.
+    all: Vec<i64>,
+}
+
+impl Times {
+    fn push(&mut self, time: i64, is_kept: bool) {
+        self.first = Some(self.first.map_or(time, |first| first.min(time)));
+        if is_kept {
+            self.all.push(time);
+        }
+    }
 }
 
 /// The messages of a topic.
 #[derive(Debug)]
 pub(super) struct Topic {
     pub(super) name: String,
+    /// Whether a channel of it may be wanted.
+    is_wanted: bool,
     columns: Vec<Column>,
     places: HashMap<String, usize>,
-    log_times_ns: Vec<u64>,
-    /// Of the header, if the message has one.
-    stamps_ns: Vec<Option<i64>>,
+    /// Number of messages.
+    rows: usize,
+    log_times: Times,
+    /// Of the headers; `None` if a message has none.
+    stamps: Option<Times>,
+    has_set_stamp: bool,
 }
 
 impl Topic {
-    pub(super) fn new(name: String) -> Self {
-        let (columns, places) = (Vec::new(), HashMap::new());
-        Self { name, columns, places, log_times_ns: Vec::new(), stamps_ns: Vec::new() }
+    pub(super) fn new(name: String, is_wanted: bool) -> Self {
+        Self {
+            name,
+            is_wanted,
+            columns: Vec::new(),
+            places: HashMap::new(),
+            rows: 0,
+            log_times: Times::default(),
+            stamps: Some(Times::default()),
+            has_set_stamp: false,
+        }
     }
 
     /// The column of this name; `None` if there are too many.
@@ -56,24 +96,24 @@ impl Topic {
             found.leave_out(&self.name, &MANY);
             return Ok(None);
         }
-        let rows = self.log_times_ns.len();
-        found.take_bytes((rows + 1) * size_of::<f64>() + size_of::<Column>() + 2 * name.len())?;
+        let is_wanted = self.is_wanted && found.wanted.has(&format!("{}/{name}", self.name));
+        let rows = if is_wanted { self.rows + 1 } else { 0 };
+        found.take_bytes(rows * size_of::<f64>() + size_of::<Column>() + 2 * name.len())?;
         self.places.insert(name.to_owned(), place);
-        self.columns.push(Column { name: name.to_owned(), values: Vec::new() });
+        self.columns.push(Column { name: name.to_owned(), is_wanted, values: Vec::new() });
         Ok(Some(place))
     }
 
     /// Sets a value of the message that is read.
     pub(super) fn set(&mut self, column: usize, value: f64) {
-        let row = self.log_times_ns.len();
-        let Some(column) = self.columns.get_mut(column) else { return };
-        column.values.resize(row, f64::NAN);
+        let Some(column) = self.columns.get_mut(column).filter(|c| c.is_wanted) else { return };
+        column.values.resize(self.rows, f64::NAN);
         column.values.push(value);
     }
 
     /// Forgets the values of the message that is read.
     pub(super) fn forget(&mut self) {
-        let row = self.log_times_ns.len();
+        let row = self.rows;
         self.columns.iter_mut().for_each(|column| column.values.truncate(row));
     }
 
@@ -84,30 +124,33 @@ impl Topic {
         stamp_ns: Option<i64>,
         found: &mut Collected,
     ) -> Result<(), FormatError> {
-        found.take_bytes((self.columns.len() + 3) * size_of::<f64>())?;
-        self.log_times_ns.push(log_time_ns);
-        self.stamps_ns.push(stamp_ns);
+        let wanted = self.columns.iter().filter(|column| column.is_wanted).count();
+        let times = if self.is_wanted { 3 } else { 0 };
+        found.take_bytes((wanted + times) * size_of::<f64>())?;
+        self.rows += 1;
+        self.log_times.push(log_time_ns.cast_signed(), self.is_wanted);
+        match (&mut self.stamps, stamp_ns) {
+            (Some(stamps), Some(stamp)) => {
+                stamps.push(stamp, self.is_wanted);
+                self.has_set_stamp |= stamp != 0;
+            }
+            _ => self.stamps = None,
+        }
         Ok(())
     }
 
     /// The stamps of the headers, if all messages have one and any is set.
-    fn stamps(&self) -> Option<Vec<i64>> {
-        let stamps: Option<Vec<i64>> = self.stamps_ns.iter().copied().collect();
-        stamps.filter(|stamps| stamps.iter().any(|stamp| *stamp != 0))
-    }
-
-    fn log_times(&self) -> Vec<i64> {
-        self.log_times_ns.iter().map(|time| time.cast_signed()).collect()
+    fn stamps(&self) -> Option<&Times> {
+        self.stamps.as_ref().filter(|_| self.has_set_stamp)
     }
 }
 
 /// Appends the channels of topics. Their times are counted from the first stamp of the file.
 pub(super) fn collect(topics: Vec<Topic>, found: &mut Collected) -> Result<(), FormatError> {
     let topics: Vec<Topic> = topics.into_iter().filter(|t| !t.columns.is_empty()).collect();
-    let first = |times: &Vec<i64>| times.iter().min().copied();
-    let stamps = topics.iter().filter_map(Topic::stamps).filter_map(|t| first(&t)).min();
+    let stamps = topics.iter().filter_map(Topic::stamps).filter_map(|times| times.first).min();
     let logged = topics.iter().filter(|topic| topic.stamps().is_none());
-    let logged = logged.filter_map(|topic| first(&topic.log_times())).min();
+    let logged = logged.filter_map(|topic| topic.log_times.first).min();
     let (mut stamps, mut logged) = (stamps.unwrap_or(0), logged.or(stamps).unwrap_or(0));
     if stamps == 0 {
         stamps = logged;
@@ -120,29 +163,33 @@ pub(super) fn collect(topics: Vec<Topic>, found: &mut Collected) -> Result<(), F
              header are not synchronous with those with one",
         );
     }
-    for topic in topics {
-        let (times, origin) = match topic.stamps() {
+    for mut topic in topics {
+        let (times, origin) = match topic.stamps.take().filter(|_| topic.has_set_stamp) {
             Some(times) => (times, stamps),
-            None => (topic.log_times(), logged),
+            None => (std::mem::take(&mut topic.log_times), logged),
         };
-        found.take_bytes(times.len() * size_of::<f64>())?;
-        topic.collect(&times, origin, found);
+        topic.log_times = Times::default();
+        found.take_bytes(times.all.len() * size_of::<f64>())?;
+        topic.collect(times.all, origin, found);
     }
     Ok(())
 }
 
 impl Topic {
     /// Appends its channels, with their clock before them.
-    fn collect(self, times_ns: &[i64], origin_ns: i64, found: &mut Collected) {
-        let since = |time: &i64| time.wrapping_sub(origin_ns) as f64 / STAMPS_PER_S;
+    fn collect(self, times_ns: Vec<i64>, origin_ns: i64, found: &mut Collected) {
+        let since = |time: i64| time.wrapping_sub(origin_ns) as f64 / STAMPS_PER_S;
         let clock = found.channels.len();
-        let times = times_ns.iter().map(since).collect();
-        let label = if self.places.contains_key("time") { "log_time" } else { "time" };
+        let times = times_ns.into_iter().map(since).collect();
+        let [label, other] = TIME;
+        let label = if self.places.contains_key(label) { other } else { label };
         let mut time = Channel::of(format!("{}/{label}", self.name), times);
         time.unit = Some("s".to_owned());
         found.channels.push(time);
         for mut column in self.columns {
-            column.values.resize(times_ns.len(), f64::NAN);
+            if column.is_wanted {
+                column.values.resize(self.rows, f64::NAN);
+            }
             let mut channel = Channel::of(format!("{}/{}", self.name, column.name), column.values);
             channel.clock = Clock::Channel(clock);
             found.channels.push(channel);

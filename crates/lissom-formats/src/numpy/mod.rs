@@ -47,6 +47,8 @@ pub(crate) fn read_npz(
     let mut found = Collected::of(wanted);
     for entry in entries {
         let Some(name) = entry.name.strip_suffix(".npy") else { continue };
+        found.take_bytes(entry.expanded_bytes())?;
+        found.release_bytes(entry.expanded_bytes());
         let mut content = entry.content(source)?;
         let bytes = content.left();
         match collect(name, &mut content, bytes, &mut found) {

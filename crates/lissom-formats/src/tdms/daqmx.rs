@@ -1,5 +1,6 @@
 //! Raw data of NI-DAQmx: rows of bytes, one buffer for each device, in which scalers state the places of the channels.
 
+use super::raw_data::RawData;
 use super::raw_index::{RawIndex, RawType};
 use super::{Object, Objects, SCALERS};
 use crate::collected::Collected;
@@ -72,14 +73,14 @@ struct Place {
     object: usize,
     count: usize,
     scaler: Scaler,
-    kind: NumberType,
+    number: Number,
 }
 
-/// Appends the values of a segment.
+/// Appends the values in the raw data of a segment.
 pub(super) fn append(
     objects: &mut Objects,
     stored: &[(usize, RawIndex)],
-    data: &[u8],
+    mut data: RawData,
     big_endian: bool,
     found: &mut Collected,
 ) -> Result<(), FormatError> {
@@ -101,53 +102,85 @@ pub(super) fn append(
         }
         match daqmx.scalers[..] {
             [scaler @ Scaler { kind: Some(kind), .. }] => {
-                places.push(Place { object: *object, count, scaler, kind });
+                let number = Number::new(kind, big_endian);
+                places.push(Place { object: *object, count, scaler, number });
             }
             _ => found.leave_out(&of.name(), &SCALERS),
         }
     }
-    let mut data = data;
-    while !data.is_empty() {
-        let before = data.len();
+    while data.left() > 0 {
+        let before = data.left();
         for (buffer, (width, rows)) in widths.iter().zip(&rows).enumerate() {
-            let (bytes, rest) = data.split_at(width.saturating_mul(*rows).min(data.len()));
-            data = rest;
-            if !bytes.is_empty() {
-                for place in places.iter().filter(|place| place.scaler.buffer == buffer) {
-                    let Some(object) = objects.all.get_mut(place.object) else { continue };
-                    values(object, place, bytes, *width, big_endian, found)?;
-                }
+            let bytes = (*width as u64).saturating_mul(*rows as u64).min(data.left());
+            let behind = data.left() - bytes;
+            if bytes > 0 {
+                let places = places.iter().filter(|place| place.scaler.buffer == buffer);
+                let places: Vec<&Place> = places.collect();
+                values(objects, &places, (&mut data, bytes / *width as u64), *width, found)?;
             }
+            data.skip(data.left() - behind)?;
         }
-        if data.len() == before {
+        if data.left() == before {
             return Ok(());
         }
     }
     Ok(())
 }
 
-/// Appends the values of a channel in a buffer.
+/// Appends the values in the next rows, which are those of a buffer.
 fn values(
-    object: &mut Object,
-    place: &Place,
-    bytes: &[u8],
+    objects: &mut Objects,
+    places: &[&Place],
+    (data, rows): (&mut RawData, u64),
     width: usize,
-    big_endian: bool,
     found: &mut Collected,
 ) -> Result<(), FormatError> {
-    let Scaler { offset, bit, .. } = place.scaler;
-    if offset.saturating_add(place.kind.size()) > width {
-        return Ok(());
+    let mut is_wanted = false;
+    let fits = |place: &&&Place| place.end() <= width;
+    for place in places.iter().filter(fits) {
+        let Some(object) = objects.all.get_mut(place.object) else { continue };
+        let count = (place.count as u64).min(rows);
+        object.count += count;
+        is_wanted |= object.is_wanted;
+        let bytes =
+            if object.is_wanted { count.saturating_mul(size_of::<f64>() as u64) } else { 0 };
+        // Each visit of a piece of data counts.
+        found.take_bytes(usize::try_from(bytes).unwrap_or(usize::MAX).max(1))?;
     }
-    let count = place.count.min(bytes.len() / width);
-    found.take_bytes(count.saturating_mul(size_of::<f64>()).max(1))?;
-    let first = object.values.len();
-    let number = Number::new(place.kind, big_endian);
-    number.append(&mut object.values, bytes.get(offset..).unwrap_or_default(), width, count);
-    if let Some(bit) = bit {
-        for value in object.values.iter_mut().skip(first) {
-            *value = f64::from(u8::from(*value as u64 >> bit & 1 == 1));
+    let mut row = 0;
+    while is_wanted && row < rows {
+        let (bytes, count) = data.rows(width, rows - row)?;
+        if count == 0 {
+            break;
         }
+        for place in places.iter().filter(fits) {
+            let Some(object) = objects.all.get_mut(place.object) else { continue };
+            if object.is_wanted {
+                let left = (place.count as u64).saturating_sub(row);
+                place.append(object, bytes, width, left.min(count as u64) as usize);
+            }
+        }
+        row += count as u64;
     }
     Ok(())
+}
+
+impl Place {
+    /// Bytes of a row up to the end of the value.
+    fn end(&self) -> usize {
+        self.scaler.offset.saturating_add(self.number.kind.size())
+    }
+
+    /// Appends the values in rows.
+    fn append(&self, object: &mut Object, rows: &[u8], width: usize, count: usize) {
+        let Scaler { offset, bit, .. } = self.scaler;
+        let first = object.values.len();
+        let bytes = rows.get(offset..).unwrap_or_default();
+        self.number.append(&mut object.values, bytes, width, count);
+        if let Some(bit) = bit {
+            for value in object.values.iter_mut().skip(first) {
+                *value = f64::from(u8::from(*value as u64 >> bit & 1 == 1));
+            }
+        }
+    }
 }

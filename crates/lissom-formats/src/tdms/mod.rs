@@ -13,11 +13,14 @@ use std::collections::HashMap;
 use metadata::Property;
 use raw_index::RawIndex;
 
+use crate::channel_ref::Wanted;
 use crate::collected::{Collected, LeftOut};
 use crate::cursor::Cursor;
 use crate::format::Format;
 use crate::format_error::FormatError;
 use crate::log_data::{Channel, Clock, LogData};
+use crate::source::Source;
+use crate::stream::{Input, Stream};
 
 /// First bytes of a file and of each segment.
 pub(crate) const TDMS: &[u8] = b"TDSm";
@@ -55,7 +58,12 @@ struct Object {
     has_data: bool,
     /// Whether it is in the list of objects of the present segment.
     is_listed: bool,
+    /// Whether its values are read.
+    is_wanted: bool,
+    /// Number of its values.
+    count: u64,
     values: Vec<f64>,
+    has_stamps: bool,
     /// The first time stamp, from which others are counted: seconds, and fractions of 2^-64 s.
     first_stamp: Option<(i64, u64)>,
 }
@@ -72,24 +80,25 @@ struct Objects {
 }
 
 /// A segment of a file.
-struct Segment<'a> {
+struct Segment {
     flags: u32,
-    metadata: Cursor<'a>,
-    raw_data: &'a [u8],
+    metadata: Vec<u8>,
+    /// Number of bytes of its raw data.
+    raw_bytes: u64,
     is_complete: bool,
-    /// The bytes behind it.
-    after: &'a [u8],
+    /// Its end in the file.
+    end: u64,
 }
 
 /// Reads a file.
-pub(crate) fn read(bytes: &[u8]) -> Result<LogData, FormatError> {
-    let mut found = Collected::new();
+pub(crate) fn read(source: &Source, wanted: Wanted) -> Result<LogData, FormatError> {
+    let mut found = Collected::of(wanted);
     let mut objects = Objects::default();
-    let mut rest = bytes;
+    let mut stream = source.stream(0);
     let mut number = 0;
-    while !rest.is_empty() {
+    while stream.left() > 0 {
         number += 1;
-        let Some(segment) = segment(rest) else {
+        let Some(segment) = segment(&mut stream)? else {
             found.note(format!("the file is cut off or damaged at segment {number}"));
             break;
         };
@@ -97,41 +106,44 @@ pub(crate) fn read(bytes: &[u8]) -> Result<LogData, FormatError> {
             found
                 .note(format!("segment {number} was not finished: its last values may be missing"));
         }
-        if objects.update(&segment).is_none() {
+        if objects.update(&segment, wanted).is_none() {
             found.note(format!(
                 "the metadata of segment {number} are damaged; the rest is left out"
             ));
             break;
         }
         if segment.flags & HAS_RAW_DATA != 0 {
-            raw_data::append(&mut objects, &segment, number, &mut found)?;
+            raw_data::append(&mut objects, &segment, number, &mut stream, &mut found)?;
         }
-        rest = segment.after;
+        stream.skip(segment.end - stream.place())?;
     }
     collect(objects, &mut found);
     found.finish(Format::Tdms)
 }
 
-/// The segment at the beginning of these bytes; `None` if there is none, or not all of its metadata.
-fn segment(bytes: &[u8]) -> Option<Segment<'_>> {
-    let lead_in = bytes.get(..LEAD_IN_BYTES)?.strip_prefix(TDMS)?;
+/// Reads the next segment up to its raw data; `None` if there is none, or not all of its metadata.
+fn segment(stream: &mut Stream) -> Result<Option<Segment>, FormatError> {
+    let lead_in = stream.next_bytes(LEAD_IN_BYTES)?.and_then(lead_in);
+    let Some((flags, next, metadata_bytes)) = lead_in else { return Ok(None) };
+    let is_complete = next != UNFINISHED && next <= stream.left();
+    let bytes = next.min(stream.left());
+    let end = stream.place() + bytes;
+    let Some(raw_bytes) = bytes.checked_sub(metadata_bytes) else { return Ok(None) };
+    let metadata = stream.next_bytes(metadata_bytes as usize)?.map(<[u8]>::to_vec);
+    Ok(metadata.map(|metadata| Segment { flags, metadata, raw_bytes, is_complete, end }))
+}
+
+/// Flags of a segment, and the distances of the next segment and of the raw data from the lead-in.
+fn lead_in(bytes: &[u8]) -> Option<(u32, u64, u64)> {
+    let lead_in = bytes.strip_prefix(TDMS)?;
     let flags = Cursor::new(lead_in, false).u32()?;
-    let big_endian = flags & IS_BIG_ENDIAN != 0;
-    let mut cursor = Cursor::new(lead_in.get(8..)?, big_endian);
-    let (next, raw_data) = (cursor.u64()?, cursor.u64()?);
-    let content = bytes.get(LEAD_IN_BYTES..)?;
-    let raw_data = usize::try_from(raw_data).ok()?;
-    let next_place = usize::try_from(next).unwrap_or(usize::MAX);
-    let is_complete = next != UNFINISHED && next_place <= content.len();
-    let (content, after) = content.split_at(next_place.min(content.len()));
-    let (metadata, raw_data) = content.split_at_checked(raw_data)?;
-    let metadata = Cursor::new(metadata, big_endian);
-    Some(Segment { flags, metadata, raw_data, is_complete, after })
+    let mut cursor = Cursor::new(lead_in.get(8..)?, flags & IS_BIG_ENDIAN != 0);
+    Some((flags, cursor.u64()?, cursor.u64()?))
 }
 
 impl Objects {
     /// Takes over the metadata of a segment; `None` if they are damaged.
-    fn update(&mut self, segment: &Segment) -> Option<()> {
+    fn update(&mut self, segment: &Segment, wanted: Wanted) -> Option<()> {
         if segment.flags & HAS_METADATA == 0 {
             return Some(());
         }
@@ -142,11 +154,11 @@ impl Objects {
                 }
             }
         }
-        let mut cursor = segment.metadata;
+        let mut cursor = Cursor::new(&segment.metadata, segment.flags & IS_BIG_ENDIAN != 0);
         let count = cursor.u32()?;
         for _ in 0..count {
             let path = metadata::text(&mut cursor)?;
-            let place = self.place(path);
+            let place = self.place(path, wanted);
             let object = self.all.get_mut(place)?;
             if !object.is_listed {
                 object.is_listed = true;
@@ -174,11 +186,13 @@ impl Objects {
     }
 
     /// The place of the object with this path.
-    fn place(&mut self, path: String) -> usize {
+    fn place(&mut self, path: String, wanted: Wanted) -> usize {
         if let Some(place) = self.places.get(&path) {
             return *place;
         }
-        self.all.push(Object { path: metadata::names(&path), ..Object::default() });
+        let mut object = Object { path: metadata::names(&path), ..Object::default() };
+        object.is_wanted = wanted.has(&object.name());
+        self.all.push(object);
         self.places.insert(path, self.all.len() - 1);
         self.all.len() - 1
     }
@@ -189,7 +203,7 @@ fn collect(mut objects: Objects, found: &mut Collected) {
     let scales = objects.scales();
     for (object, scales) in objects.all.iter_mut().zip(scales) {
         let name = object.name();
-        if object.values.is_empty() {
+        if object.count == 0 {
             continue;
         }
         let mut values = std::mem::take(&mut object.values);
@@ -242,7 +256,7 @@ impl Object {
     }
 
     fn unit(&self) -> Option<String> {
-        let stamps = self.first_stamp.map(|_| "s");
+        let stamps = self.has_stamps.then_some("s");
         let unit = self.text("unit_string").or_else(|| self.text("NI_UnitDescription"));
         unit.or(stamps).map(str::to_owned)
     }

@@ -5,20 +5,24 @@ use super::{COMPLEX, IS_BIG_ENDIAN, IS_INTERLEAVED, Object, Objects, Segment, da
 use crate::collected::Collected;
 use crate::format_error::FormatError;
 use crate::number::Number;
+use crate::stream::{Input, Stream};
 
 /// Most pieces of raw data, one for each channel in each segment.
 const MOST_VISITS: u64 = 1 << 31;
+/// Bytes that are read at once.
+const BLOCK_BYTES: usize = 1 << 15;
 /// Fractions of a second in a time stamp.
 const FRACTIONS_PER_S: f64 = 18_446_744_073_709_551_616.0;
 
-/// Appends the values of a segment to its objects.
+/// Appends the values of a segment, whose raw data come next, to its objects.
 pub(super) fn append(
     objects: &mut Objects,
     segment: &Segment,
     number: usize,
+    stream: &mut Stream,
     found: &mut Collected,
 ) -> Result<(), FormatError> {
-    if segment.raw_data.is_empty() {
+    if segment.raw_bytes == 0 {
         return Ok(());
     }
     objects.visited += objects.listed.len() as u64;
@@ -34,42 +38,85 @@ pub(super) fn append(
     let stored: Vec<(usize, RawIndex)> = objects.listed.iter().filter_map(stored).collect();
     let big_endian = segment.flags & IS_BIG_ENDIAN != 0;
     if stored.iter().any(|(_, index)| index.of == RawType::Daqmx) {
-        return daqmx::append(objects, &stored, segment.raw_data, big_endian, found);
+        let data = RawData { stream, left: segment.raw_bytes };
+        return daqmx::append(objects, &stored, data, big_endian, found);
     }
     if stored.iter().any(|(_, index)| index.of == RawType::Unknown) {
         found.note(format!("the raw data of segment {number} are of an unknown type: left out"));
         return Ok(());
     }
-    let mut chunks = Chunks { objects, big_endian, found };
+    let data = RawData { stream, left: segment.raw_bytes };
+    let mut chunks = Chunks { objects, data, big_endian, found };
     let texts = stored.iter().any(|(_, index)| index.of == RawType::Text);
     if segment.flags & IS_INTERLEAVED != 0 && !texts {
-        chunks.interleaved(&stored, segment.raw_data)
+        chunks.interleaved(&stored)
     } else {
-        chunks.contiguous(&stored, segment)
+        chunks.contiguous(&stored, segment.is_complete)
+    }
+}
+
+/// The raw data of a segment.
+pub(super) struct RawData<'a> {
+    stream: &'a mut Stream,
+    /// Number of bytes that are not yet read.
+    left: u64,
+}
+
+impl RawData<'_> {
+    pub(super) fn left(&self) -> u64 {
+        self.left
+    }
+
+    pub(super) fn skip(&mut self, bytes: u64) -> Result<(), FormatError> {
+        let bytes = bytes.min(self.left);
+        self.left -= bytes;
+        self.stream.skip(bytes)?;
+        Ok(())
+    }
+
+    /// The next rows of a size, at most `most` and not more than are read at once.
+    pub(super) fn rows(&mut self, size: usize, most: u64) -> Result<(&[u8], usize), FormatError> {
+        let size = size.max(1);
+        let rows = most.min(self.left / size as u64).min((BLOCK_BYTES / size).max(1) as u64);
+        let bytes = rows * size as u64;
+        self.left -= bytes;
+        let bytes = self.stream.next_bytes(bytes as usize)?.unwrap_or_default();
+        Ok((bytes, rows as usize))
     }
 }
 
 /// Appends chunks of raw data.
 struct Chunks<'a, 'w> {
     objects: &'a mut Objects,
+    data: RawData<'a>,
     big_endian: bool,
     found: &'a mut Collected<'w>,
 }
 
 impl Chunks<'_, '_> {
     /// Rows with a value of each object.
-    fn interleaved(
-        &mut self,
-        stored: &[(usize, RawIndex)],
-        data: &[u8],
-    ) -> Result<(), FormatError> {
+    fn interleaved(&mut self, stored: &[(usize, RawIndex)]) -> Result<(), FormatError> {
         let width = stored.iter().filter_map(|(_, index)| index.of.size()).sum::<usize>();
-        let Some(rows) = data.len().checked_div(width) else { return Ok(()) };
-        let mut offset = 0;
+        let Some(rows) = self.data.left.checked_div(width as u64) else { return Ok(()) };
+        let mut is_wanted = false;
         for (place, index) in stored {
-            let bytes = data.get(offset..).unwrap_or_default();
-            self.values(*place, index.of, bytes, width, rows)?;
-            offset += index.of.size().unwrap_or(0);
+            is_wanted |= self.count(*place, index.of, rows)?;
+        }
+        let mut left = if is_wanted { rows } else { 0 };
+        while left > 0 {
+            let (block, count) = self.data.rows(width, left)?;
+            if count == 0 {
+                break;
+            }
+            left -= count as u64;
+            let mut offset = 0;
+            for (place, index) in stored {
+                let bytes = block.get(offset..).unwrap_or_default();
+                if let Some(object) = self.objects.all.get_mut(*place) {
+                    object.append(index.of, (bytes, width), count, self.big_endian);
+                }
+                offset += index.of.size().unwrap_or(0);
+            }
         }
         Ok(())
     }
@@ -78,26 +125,25 @@ impl Chunks<'_, '_> {
     fn contiguous(
         &mut self,
         stored: &[(usize, RawIndex)],
-        segment: &Segment,
+        is_complete: bool,
     ) -> Result<(), FormatError> {
         let stored: Vec<_> = stored.iter().filter(|(_, index)| index.bytes > 0).collect();
         let bytes = |sum: u64, (_, index): &&(usize, RawIndex)| sum.saturating_add(index.bytes);
         let chunk = stored.iter().fold(0, bytes);
-        let mut data = segment.raw_data;
-        while !data.is_empty() && chunk > 0 {
-            let left = data.len() as u64;
+        while self.data.left > 0 && chunk > 0 {
+            let left = self.data.left;
             for (place, index) in &stored {
                 // The last chunk of a complete segment may be shorter for all objects.
-                let is_short = left < chunk && segment.is_complete;
+                let is_short = left < chunk && is_complete;
                 let count = if is_short { share(index.count, left, chunk) } else { index.count };
                 let size = index.of.size();
                 let wanted = size.map_or(index.bytes, |size| count.saturating_mul(size as u64));
-                let wanted = usize::try_from(wanted).unwrap_or(usize::MAX).min(data.len());
-                let (bytes, rest) = data.split_at(wanted);
-                data = rest;
+                let wanted = wanted.min(self.data.left);
+                let behind = self.data.left - wanted;
                 if let Some(size) = size {
-                    self.values(*place, index.of, bytes, size, wanted / size)?;
+                    self.values(*place, index.of, size, wanted / size as u64)?;
                 }
+                self.data.skip(self.data.left - behind)?;
             }
             if left < chunk {
                 break;
@@ -106,29 +152,69 @@ impl Chunks<'_, '_> {
         Ok(())
     }
 
-    /// Appends the values of an object that begin every `stride` bytes.
+    /// Appends the next values, which are of one object.
     fn values(
         &mut self,
         place: usize,
         of: RawType,
-        bytes: &[u8],
-        stride: usize,
-        count: usize,
+        size: usize,
+        count: u64,
     ) -> Result<(), FormatError> {
-        let Some(object) = self.objects.all.get_mut(place) else { return Ok(()) };
-        match of {
-            RawType::Number(kind) => {
-                self.found.take_bytes(count.saturating_mul(size_of::<f64>()))?;
-                Number::new(kind, self.big_endian).append(&mut object.values, bytes, stride, count);
+        let mut left = if self.count(place, of, count)? { count } else { 0 };
+        while left > 0 {
+            let (bytes, count) = self.data.rows(size, left)?;
+            if count == 0 {
+                break;
             }
-            RawType::TimeStamp => {
-                self.found.take_bytes(count.saturating_mul(size_of::<f64>()))?;
-                stamps(object, bytes, stride, count, self.big_endian);
+            left -= count as u64;
+            if let Some(object) = self.objects.all.get_mut(place) {
+                object.append(of, (bytes, size), count, self.big_endian);
             }
-            RawType::Complex { .. } => self.found.leave_out(&object.name(), &COMPLEX),
-            RawType::Text | RawType::Daqmx | RawType::Unknown => {}
         }
         Ok(())
+    }
+
+    /// Counts values of an object before they are read; whether they are wanted.
+    fn count(&mut self, place: usize, of: RawType, count: u64) -> Result<bool, FormatError> {
+        let Some(object) = self.objects.all.get_mut(place) else { return Ok(false) };
+        match of {
+            RawType::Number(_) | RawType::TimeStamp => {
+                object.count += count;
+                object.has_stamps |= of == RawType::TimeStamp && count > 0;
+                if object.is_wanted {
+                    let count = usize::try_from(count).unwrap_or(usize::MAX);
+                    self.found.take_bytes(count.saturating_mul(size_of::<f64>()))?;
+                    object.values.reserve(count);
+                }
+                Ok(object.is_wanted)
+            }
+            RawType::Complex { .. } => {
+                self.found.leave_out(&object.name(), &COMPLEX);
+                Ok(false)
+            }
+            RawType::Text | RawType::Daqmx | RawType::Unknown => Ok(false),
+        }
+    }
+}
+
+impl Object {
+    /// Appends values that begin every `stride` bytes.
+    fn append(
+        &mut self,
+        of: RawType,
+        (bytes, stride): (&[u8], usize),
+        count: usize,
+        big_endian: bool,
+    ) {
+        match of {
+            RawType::Number(kind) if self.is_wanted => {
+                Number::new(kind, big_endian).append(&mut self.values, bytes, stride, count);
+            }
+            RawType::TimeStamp if self.is_wanted => {
+                stamps(self, bytes, stride, count, big_endian);
+            }
+            _ => {}
+        }
     }
 }
 

@@ -9,14 +9,17 @@ use std::collections::HashMap;
 
 use serde_json::Value;
 
-use layout::{Layout, Schemas};
+use layout::{Layout, Leaf, Schemas};
 
+use crate::channel_ref::Wanted;
 use crate::collected::{Collected, LeftOut};
 use crate::cursor::Cursor;
 use crate::format::Format;
 use crate::format_error::FormatError;
 use crate::log_data::{Channel, Clock, LogData};
 use crate::number::Number;
+use crate::source::Source;
+use crate::stream::{Input, Stream};
 
 /// First bytes of a log.
 pub(crate) const WPILOG: &[u8] = b"WPILOG";
@@ -47,9 +50,21 @@ struct Entry {
     /// Name of its type.
     of: String,
     layout: Option<Layout>,
+    /// Number of its records.
+    rows: usize,
+    /// Whether a channel of it may be wanted: then the times are kept. `None` before the first record.
+    is_wanted: Option<bool>,
     times_s: Vec<f64>,
-    /// The values of each number of each item.
-    places: Vec<Vec<f64>>,
+    /// Each number of each item.
+    places: Vec<Place>,
+}
+
+/// A number of an item.
+struct Place {
+    name: String,
+    /// Whether its values are read.
+    is_wanted: bool,
+    values: Vec<f64>,
 }
 
 /// What the number of an entry stands for.
@@ -61,10 +76,11 @@ enum Open {
 }
 
 /// A record of a log.
-struct Record<'a> {
+struct Record {
     entry: u32,
     stamp: u64,
-    payload: &'a [u8],
+    /// Number of bytes of the payload.
+    size: usize,
 }
 
 /// Entries while the log is read.
@@ -79,26 +95,36 @@ struct Entries {
 }
 
 /// Reads a log.
-pub(crate) fn read(bytes: &[u8]) -> Result<LogData, FormatError> {
-    let mut found = Collected::new();
+pub(crate) fn read(source: &Source, wanted: Wanted) -> Result<LogData, FormatError> {
+    /// Bytes before the extra header.
+    const BEGIN: usize = WPILOG.len() + 6;
+    let mut found = Collected::of(wanted);
     let damaged = || FormatError::content("header", "the header of the WPILib log is damaged");
-    let mut cursor = Cursor::new(bytes.strip_prefix(WPILOG).unwrap_or_default(), false);
+    let mut stream = source.stream(0);
+    let begin = stream.next_bytes(BEGIN.min(source.length() as usize))?.unwrap_or_default();
+    let mut cursor = Cursor::new(begin.strip_prefix(WPILOG).unwrap_or_default(), false);
     let version = cursor.u16().ok_or_else(damaged)?;
     if version >> 8 != 1 {
         let reason = format!("version {} of WPILib logs is not read, only 1", version >> 8);
         return Err(FormatError::content("header", reason));
     }
-    let extra = cursor.count_u32().ok_or_else(damaged)?;
-    cursor.take(extra).ok_or_else(damaged)?;
+    let extra = cursor.u32().ok_or_else(damaged)?;
+    stream.skip(u64::from(extra))?.ok_or_else(damaged)?;
     let mut entries = Entries::default();
-    while !cursor.rest().is_empty() {
-        let Some(record) = record(&mut cursor) else {
+    while stream.left() > 0 {
+        let record = record(&mut stream)?.filter(|record| record.size as u64 <= stream.left());
+        let Some(record) = record else {
             found.note("the file ends inside a record, which is left out");
             break;
         };
+        if record.entry != 0 && !entries.open.contains_key(&record.entry) {
+            stream.skip(record.size as u64)?;
+            continue;
+        }
+        let Some(payload) = stream.next_bytes(record.size)? else { break };
         if record.entry != 0 {
-            entries.append(&record, &mut found)?;
-        } else if entries.control(record.payload, &mut found).is_none() {
+            entries.append(&record, payload, &mut found)?;
+        } else if entries.control(payload, &mut found).is_none() {
             found.note("a damaged control record is left out");
         }
     }
@@ -108,17 +134,19 @@ pub(crate) fn read(bytes: &[u8]) -> Result<LogData, FormatError> {
     found.finish(Format::WpiLog)
 }
 
-/// The next record; `None` if the file ends before its end.
-fn record<'a>(cursor: &mut Cursor<'a>) -> Option<Record<'a>> {
-    let lengths = cursor.u8()?;
-    let mut number = |length: u8| -> Option<u64> {
-        let bytes = cursor.take(usize::from(length) + 1)?;
-        Some(bytes.iter().rev().fold(0, |sum, byte| sum << 8 | u64::from(*byte)))
+/// The next record up to its payload; `None` if the file ends before.
+fn record(stream: &mut Stream) -> Result<Option<Record>, FormatError> {
+    let Some(&[lengths]) = stream.next_bytes(1)? else { return Ok(None) };
+    let [entry, size, stamp] =
+        [lengths & 3, lengths >> 2 & 3, lengths >> 4 & 7].map(|length| usize::from(length) + 1);
+    let Some(header) = stream.next_bytes(entry + size + stamp)? else { return Ok(None) };
+    let number = |from: usize, length: usize| {
+        let bytes = header.iter().skip(from).take(length);
+        bytes.rev().fold(0, |sum, byte| sum << 8 | u64::from(*byte))
     };
-    let entry = u32::try_from(number(lengths & 3)?).ok()?;
-    let size = usize::try_from(number(lengths >> 2 & 3)?).ok()?;
-    let stamp = number(lengths >> 4 & 7)?;
-    Some(Record { entry, stamp, payload: cursor.take(size)? })
+    let (size, stamp) = (number(entry, size), number(entry + size, stamp));
+    let record = Record { entry: number(0, entry) as u32, stamp, size: size as usize };
+    Ok(Some(record))
 }
 
 /// A text with its length before it.
@@ -199,17 +227,23 @@ impl Entries {
             entry.unit = unit.or(entry.unit.take());
         } else {
             let ((name, of), times_s, places) = (key, Vec::new(), Vec::new());
-            self.all.push(Entry { name, unit, of, layout, times_s, places });
+            let (rows, is_wanted) = (0, None);
+            self.all.push(Entry { name, unit, of, layout, rows, is_wanted, times_s, places });
         }
         self.open.insert(number, Open::Entry(place));
     }
 
     /// Appends the values of a record.
-    fn append(&mut self, record: &Record, found: &mut Collected) -> Result<(), FormatError> {
+    fn append(
+        &mut self,
+        record: &Record,
+        payload: &[u8],
+        found: &mut Collected,
+    ) -> Result<(), FormatError> {
         let place = match self.open.get(&record.entry) {
             Some(Open::Entry(place)) => *place,
             Some(Open::Schema(name)) => {
-                let schema = String::from_utf8_lossy(record.payload).into_owned();
+                let schema = String::from_utf8_lossy(payload).into_owned();
                 self.schemas.insert(name.clone(), schema);
                 return Ok(());
             }
@@ -225,16 +259,21 @@ impl Entries {
             found.leave_out(&entry.name, &STRUCTS);
             return Ok(());
         }
-        entry.append(record, found)
+        entry.append(record, payload, found)
     }
 }
 
 impl Entry {
     /// Appends the values of a record.
-    fn append(&mut self, record: &Record, found: &mut Collected) -> Result<(), FormatError> {
+    fn append(
+        &mut self,
+        record: &Record,
+        payload: &[u8],
+        found: &mut Collected,
+    ) -> Result<(), FormatError> {
         let Some(layout) = &self.layout else { return Ok(()) };
-        let items = record.payload.len() / layout.size;
-        if items * layout.size != record.payload.len() || (!layout.is_array && items != 1) {
+        let items = payload.len() / layout.size;
+        if items * layout.size != payload.len() || (!layout.is_array && items != 1) {
             found.leave_out(&self.name, &UNFIT);
             return Ok(());
         }
@@ -243,41 +282,75 @@ impl Entry {
             found.leave_out(&self.name, &LONG);
             return Ok(());
         }
-        let rows = self.times_s.len();
-        let new = count.saturating_sub(self.places.len());
-        found.take_bytes((new * rows + self.places.len() + new + 1) * size_of::<f64>())?;
-        self.places.extend((0..new).map(|_| vec![f64::NAN; rows]));
+        let rows = self.rows;
+        let keeps_times =
+            *self.is_wanted.get_or_insert_with(|| layout.is_wanted(&self.name, found.wanted));
+        for k in self.places.len()..count {
+            let name = layout.name(&self.name, k);
+            let is_wanted = keeps_times && found.wanted.has(&name);
+            found.take_bytes(if is_wanted { rows * size_of::<f64>() } else { name.len() })?;
+            let values = if is_wanted { vec![f64::NAN; rows] } else { Vec::new() };
+            self.places.push(Place { name, is_wanted, values });
+        }
+        let wanted = self.places.iter().filter(|place| place.is_wanted).count();
+        found.take_bytes((wanted + usize::from(keeps_times)) * size_of::<f64>())?;
         let items = (0..self.places.len()).step_by(layout.leaves.len());
         let leaves =
             items.zip(0..).flat_map(|(_, item)| layout.leaves.iter().map(move |l| (item, l)));
-        for (place, (item, leaf)) in self.places.iter_mut().zip(leaves) {
-            let bytes = record.payload.get(item * layout.size + leaf.offset..).unwrap_or_default();
+        let places = self.places.iter_mut().zip(leaves).filter(|(place, _)| place.is_wanted);
+        for (Place { values, .. }, (item, leaf)) in places {
+            let bytes = payload.get(item * layout.size + leaf.offset..).unwrap_or_default();
             let size = leaf.number.size();
-            Number::new(leaf.number, false).append(place, bytes, size, 1);
+            Number::new(leaf.number, false).append(values, bytes, size, 1);
             // An array that is shorter than others has no value here.
-            place.resize(rows + 1, f64::NAN);
+            values.resize(rows + 1, f64::NAN);
         }
-        self.times_s.push(record.stamp as f64 / STAMPS_PER_S);
+        self.rows += 1;
+        if keeps_times {
+            self.times_s.push(record.stamp as f64 / STAMPS_PER_S);
+        }
         Ok(())
     }
 
     /// Appends its channels, with their clock before them.
     fn collect(self, found: &mut Collected) {
-        let Some(layout) = self.layout.filter(|_| !self.places.is_empty()) else { return };
+        if self.places.is_empty() {
+            return;
+        }
         let clock = found.channels.len();
-        let mut time = Channel::of(format!("{}/time", self.name), self.times_s);
+        let mut time = Channel::of(time_name(&self.name), self.times_s);
         time.unit = Some("s".to_owned());
         found.channels.push(time);
-        let leaves = layout.leaves.len();
-        for (k, values) in self.places.into_iter().enumerate() {
-            let place =
-                if layout.is_array { format!("[{}]", k / leaves + 1) } else { String::new() };
-            let path = layout.leaves.get(k % leaves).map_or("", |leaf| &leaf.path);
-            let slash = if path.is_empty() { "" } else { "/" };
-            let mut channel = Channel::of(format!("{}{place}{slash}{path}", self.name), values);
+        for place in self.places {
+            let mut channel = Channel::of(place.name, place.values);
             channel.unit.clone_from(&self.unit);
             channel.clock = Clock::Channel(clock);
             found.channels.push(channel);
         }
+    }
+}
+
+fn time_name(entry: &str) -> String {
+    format!("{entry}/time")
+}
+
+impl Layout {
+    /// Name of a channel of an entry.
+    fn name(&self, entry: &str, k: usize) -> String {
+        let leaves = self.leaves.len();
+        let place = if self.is_array { format!("[{}]", k / leaves + 1) } else { String::new() };
+        let path = self.leaves.get(k % leaves).map_or("", |leaf| &leaf.path);
+        let slash = if path.is_empty() { "" } else { "/" };
+        format!("{entry}{place}{slash}{path}")
+    }
+
+    /// Whether a channel of an entry may be wanted.
+    fn is_wanted(&self, entry: &str, wanted: Wanted) -> bool {
+        let has_leaf = |(k, leaf): (usize, &Leaf)| match (self.is_array, leaf.path.is_empty()) {
+            (false, _) => wanted.has(&self.name(entry, k)),
+            (true, true) => wanted.has_place(entry, ""),
+            (true, false) => wanted.has_place(entry, &format!("/{}", leaf.path)),
+        };
+        wanted.has(&time_name(entry)) || self.leaves.iter().enumerate().any(has_leaf)
     }
 }
