@@ -102,7 +102,7 @@ impl Array {
             };
             columns.push(Column { label, values });
         }
-        Ok(Columns { length, columns, ..none })
+        Ok(Columns { length, all: columns, ..none })
     }
 
     /// Bytes from the beginning of the items to the end of the last number.

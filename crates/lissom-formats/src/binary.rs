@@ -28,7 +28,7 @@ const BINARY: &[Binary] = &[
     Binary { begins: matlab::begins_v5, read: matlab::read_v5 },
     Binary { begins: |bytes| bytes.starts_with(wpilog::WPILOG), read: wpilog::read },
     Binary { begins: |bytes| bytes.starts_with(tdms::TDMS), read: tdms::read },
-    Binary { begins: uff58::begins, read: |source, _| uff58::read(&source.all()?) },
+    Binary { begins: uff58::begins, read: uff58::read },
     #[cfg(feature = "hdf5")]
     Binary { begins: |bytes| bytes.starts_with(hdf5::HDF5), read: hdf5::read },
     #[cfg(feature = "hdf5")]
@@ -68,7 +68,7 @@ pub(crate) fn read(
     };
     #[cfg(feature = "xlsx")]
     if xlsx::is_workbook(&entries) {
-        return xlsx::read(source, &entries).map(Some);
+        return xlsx::read(source, &entries, wanted).map(Some);
     }
     #[cfg(not(feature = "xlsx"))]
     if entries.iter().any(|entry| entry.name == "xl/workbook.xml") {

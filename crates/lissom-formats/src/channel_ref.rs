@@ -65,9 +65,10 @@ impl<'a> Wanted<'a> {
         let is_place = |place: &str| place.starts_with('[') && place.ends_with(']');
         let has = |wanted: &str| {
             let of = wanted.strip_prefix(before).and_then(|rest| rest.strip_suffix(after));
-            let of_last = match after.contains('/') {
-                true => wanted == last,
-                false => wanted.strip_prefix(last).is_some_and(is_place),
+            let of_last = if after.contains('/') {
+                wanted == last
+            } else {
+                wanted.strip_prefix(last).is_some_and(is_place)
             };
             of.is_some_and(is_place) || of_last
         };

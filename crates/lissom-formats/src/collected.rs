@@ -131,30 +131,30 @@ impl<'a> Collected<'a> {
             let names = names.listed();
             self.notes.push(format!("left out: {names} ({}); {}", why.what, why.way_out));
         }
-        self.drop_unwanted();
-        let Self { mut channels, notes, .. } = self;
+        let Self { mut channels, wanted, notes, .. } = self;
+        drop_unwanted(&mut channels, wanted);
         // In brackets at the end of a name of MCAP is the name of a joint.
         if format != Format::Mcap {
             channels.iter_mut().for_each(Channel::take_unit_of_name);
         }
         Ok(LogData { format, channels, decimal_comma: false, notes })
     }
+}
 
-    /// Drops values of channels that were read before their name or number was known, or as stamps of others.
-    fn drop_unwanted(&mut self) {
-        let wanted = self.wanted;
-        let is_kept = |(k, channel): (usize, &Channel)| wanted.has_at(&channel.name, Some(k + 1));
-        let mut kept: Vec<bool> = self.channels.iter().enumerate().map(is_kept).collect();
-        for (k, channel) in self.channels.iter().enumerate() {
-            if let Clock::Channel(clock) = channel.clock
-                && wanted.has_at(&channel.name, Some(k + 1))
-                && let Some(kept) = kept.get_mut(clock)
-            {
-                *kept = true;
-            }
+/// Drops the values of channels that are neither wanted nor time stamps of one that is: some were read before their name or
+/// number was known.
+pub(crate) fn drop_unwanted(channels: &mut [Channel], wanted: Wanted) {
+    let is_wanted = |(k, channel): (usize, &Channel)| wanted.has_at(&channel.name, Some(k + 1));
+    let mut kept: Vec<bool> = channels.iter().enumerate().map(is_wanted).collect();
+    for (k, channel) in channels.iter().enumerate() {
+        if let Clock::Channel(clock) = channel.clock
+            && is_wanted((k, channel))
+            && let Some(kept) = kept.get_mut(clock)
+        {
+            *kept = true;
         }
-        for (channel, _) in self.channels.iter_mut().zip(kept).filter(|(_, kept)| !kept) {
-            channel.values = Vec::new();
-        }
+    }
+    for (channel, _) in channels.iter_mut().zip(kept).filter(|(_, kept)| !kept) {
+        channel.values = Vec::new();
     }
 }

@@ -17,7 +17,7 @@ pub(crate) struct Columns {
     pub(crate) length: usize,
     /// The end of the names.
     pub(crate) part: &'static str,
-    pub(crate) columns: Vec<Column>,
+    pub(crate) all: Vec<Column>,
     pub(crate) has_too_many: bool,
     /// Place of the first time, from which the others are counted, until it is read.
     pub(crate) first_time: Option<usize>,
@@ -65,7 +65,7 @@ impl Values {
 impl Columns {
     /// Place of the next number that is wanted.
     pub(crate) fn next(&self) -> Option<usize> {
-        let values = self.columns.iter().filter_map(|column| column.values.as_ref());
+        let values = self.all.iter().filter_map(|column| column.values.as_ref());
         let next = values.filter(|values| values.left > 0).map(|values| values.next).min();
         next.map(|next| self.first_time.unwrap_or(next))
     }
@@ -73,7 +73,7 @@ impl Columns {
     /// Bytes in memory of its wanted values.
     #[cfg(feature = "hdf5")]
     pub(crate) fn wanted_bytes(&self) -> usize {
-        let wanted = self.columns.iter().filter(|column| column.values.is_some());
+        let wanted = self.all.iter().filter(|column| column.values.is_some());
         wanted.count().saturating_mul(self.length).saturating_mul(size_of::<f64>())
     }
 
@@ -82,10 +82,10 @@ impl Columns {
         let first = self.first_time.and_then(|first| first.checked_sub(at));
         if let Some(first) = first.and_then(|first| bytes.get(first..)) {
             self.first_time = None;
-            let values = self.columns.iter_mut().filter_map(|column| column.values.as_mut());
+            let values = self.all.iter_mut().filter_map(|column| column.values.as_mut());
             values.for_each(|values| values.number = values.number.since_first(first));
         }
-        for column in &mut self.columns {
+        for column in &mut self.all {
             if let Some(values) = column.values.as_mut().filter(|values| values.left > 0) {
                 values.append(bytes, at);
             }
@@ -94,7 +94,7 @@ impl Columns {
 
     /// Its number, if it has one.
     pub(crate) fn scalar(&self) -> Option<f64> {
-        match &self.columns[..] {
+        match &self.all[..] {
             [Column { values: Some(values), .. }] if self.length == 1 => {
                 values.read.first().copied()
             }
@@ -107,7 +107,7 @@ impl Columns {
         if self.has_too_many {
             found.leave_out(name, &MANY_CHANNELS);
         }
-        for Column { label, values } in self.columns {
+        for Column { label, values } in self.all {
             let values = values.map_or_else(Vec::new, |values| values.read);
             found.channels.push(Channel::of(format!("{name}{label}{}", self.part), values));
         }
@@ -134,7 +134,9 @@ pub(crate) fn read_values(
         }
         let count = (most as u64).min(bytes.saturating_sub(at as u64)) as usize;
         let Some(block) = input.next_bytes(count)?.filter(|_| count > 0) else { return Ok(None) };
-        arrays.iter_mut().for_each(|array| array.append(block, at));
+        for array in arrays.iter_mut() {
+            array.append(block, at);
+        }
         at += count;
     }
     Ok(Some(()))

@@ -10,7 +10,7 @@ use std::io::Cursor;
 use calamine::{Cell, DataRef, DataType, ExcelDateTime, Reader, Xlsx};
 
 use crate::channel_ref::Wanted;
-use crate::collected::Collected;
+use crate::collected::{Collected, drop_unwanted};
 use crate::format::Format;
 use crate::format_error::FormatError;
 use crate::guard::guarded;
@@ -25,15 +25,21 @@ pub(crate) fn is_workbook(entries: &[Entry]) -> bool {
 }
 
 /// Reads a workbook.
-pub(crate) fn read(source: &Source, entries: &[Entry]) -> Result<LogData, FormatError> {
-    let mut found = Collected::new();
+pub(crate) fn read(
+    source: &Source,
+    entries: &[Entry],
+    wanted: Wanted,
+) -> Result<LogData, FormatError> {
+    let mut found = Collected::of(wanted);
     for entry in entries {
         // The library does not limit the size of an entry: one that expands to more than is stated is an error here.
         found.take_bytes(entry.expanded_bytes())?;
         entry.content(source)?.finish()?;
     }
     let bytes = source.all()?;
-    guarded(Format::Xlsx, || of_sheets(&bytes, &mut found))
+    let mut data = guarded(Format::Xlsx, || of_sheets(&bytes, &mut found))?;
+    drop_unwanted(&mut data.channels, wanted);
+    Ok(data)
 }
 
 #[expect(clippy::needless_pass_by_value, reason = "for map_err")]

@@ -97,7 +97,9 @@ pub(crate) fn read_values(dataset: &Dataset, arrays: &mut [Columns]) -> Result<(
         }
         let first = next / row_bytes / rows * rows;
         let bytes = dataset.read_raw_rows(first as u64, rows as u64).map_err(damaged)?;
-        arrays.iter_mut().for_each(|array| array.append(&bytes, first * row_bytes));
+        for array in arrays.iter_mut() {
+            array.append(&bytes, first * row_bytes);
+        }
     }
     if before.is_none() {
         // A dataset that cannot be read is left out, whether it is wanted or not.

@@ -264,7 +264,7 @@ impl Fields {
         if columns.has_too_many {
             found.leave_out(path, &MANY_CHANNELS);
         }
-        self.number += columns.columns.len();
+        self.number += columns.all.len();
         self.all.push((path.to_owned(), columns));
         Ok(())
     }

@@ -113,7 +113,7 @@ impl<'a> MatrixReader<'a> {
         let Some(real) = self.part(end, (path, "/real"), lengths, number, found)? else {
             return Ok(None);
         };
-        let channels = real.as_ref().map_or(0, |real| real.columns.len());
+        let channels = real.as_ref().map_or(0, |real| real.all.len());
         let number = number.map(|number| number + channels);
         let imag = self.part(end, (path, "/imag"), lengths, number, found)?;
         Ok(imag.map(|imag| match (real, imag) {
@@ -143,16 +143,15 @@ impl<'a> MatrixReader<'a> {
         };
         if columns.length > 1 {
             self.has_read |= columns.next().is_some();
-            self.has_skipped |= columns.columns.iter().any(|column| column.values.is_none());
+            self.has_skipped |= columns.all.iter().any(|column| column.values.is_none());
         }
-        match element.small() {
-            Some(small) => columns.append(small, 0),
-            None => {
-                let arrays = std::slice::from_mut(&mut columns);
-                let read = read_values(arrays, kind.size(), element.size, &mut self.elements)?;
-                if read.is_none() {
-                    return Ok(None);
-                }
+        if let Some(small) = element.small() {
+            columns.append(small, 0);
+        } else {
+            let arrays = std::slice::from_mut(&mut columns);
+            let read = read_values(arrays, kind.size(), element.size, &mut self.elements)?;
+            if read.is_none() {
+                return Ok(None);
             }
         }
         // Behind a part that is not wanted the other part may be wanted.

@@ -89,11 +89,13 @@ impl Matrix {
             let offset = k * bytes / 2;
             let array = Array { number, offset, axes: axes.clone() };
             let columns = array.columns(name, part, Some(first), bytes, found)?;
-            first += columns.columns.len();
+            first += columns.all.len();
             arrays.push(columns);
         }
         read_values(&mut arrays, size, bytes as u64, &mut content)?;
-        arrays.into_iter().for_each(|columns| columns.push(name, found));
+        for columns in arrays {
+            columns.push(name, found);
+        }
         Ok(())
     }
 }

@@ -238,7 +238,7 @@ impl Reader {
         let bytes = dataset::byte_count(of, self.file_bytes, found)?;
         let array = Array { number: real, offset: 0, axes: axes.clone() };
         let real = array.columns(path, "/real", first, bytes, found)?;
-        let first = first.map(|first| first + real.columns.len());
+        let first = first.map(|first| first + real.all.len());
         let array = Array { number: imag, offset: behind, axes };
         let mut parts = [real, array.columns(path, "/imag", first, bytes, found)?];
         dataset::read_values(of, &mut parts)?;

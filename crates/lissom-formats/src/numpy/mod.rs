@@ -95,7 +95,7 @@ fn collect(
     let (mut arrays, others): (Vec<_>, Vec<_>) =
         fields.all.into_iter().map(|field| (field.columns, (field.path, field.unit_s))).unzip();
     let is_read = arrays.iter().any(|array| array.next().is_some());
-    let is_skipped = !is_read && arrays.iter().any(|array| !array.columns.is_empty());
+    let is_skipped = !is_read && arrays.iter().any(|array| !array.all.is_empty());
     read_values(&mut arrays, size, bytes as u64, input)?
         .ok_or_else(|| wrong("the file ends inside the array"))?;
     for (columns, (path, unit_s)) in arrays.into_iter().zip(others) {
@@ -186,7 +186,7 @@ impl Fields {
         if columns.has_too_many {
             found.leave_out(name, &MANY_CHANNELS);
         }
-        self.number += columns.columns.len();
+        self.number += columns.all.len();
         self.all.push(Field { path: name.to_owned(), columns, unit_s });
         Ok(())
     }

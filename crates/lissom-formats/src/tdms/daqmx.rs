@@ -2,7 +2,7 @@
 
 use super::raw_data::RawData;
 use super::raw_index::{RawIndex, RawType};
-use super::{Object, Objects, SCALERS};
+use super::{Objects, SCALERS};
 use crate::collected::Collected;
 use crate::cursor::Cursor;
 use crate::format_error::FormatError;
@@ -141,9 +141,9 @@ fn values(
         let Some(object) = objects.all.get_mut(place.object) else { continue };
         let count = (place.count as u64).min(rows);
         object.count += count;
-        is_wanted |= object.is_wanted;
-        let bytes =
-            if object.is_wanted { count.saturating_mul(size_of::<f64>() as u64) } else { 0 };
+        is_wanted |= object.values.is_some();
+        let count = if object.values.is_some() { count } else { 0 };
+        let bytes = count.saturating_mul(size_of::<f64>() as u64);
         // Each visit of a piece of data counts.
         found.take_bytes(usize::try_from(bytes).unwrap_or(usize::MAX).max(1))?;
     }
@@ -155,9 +155,9 @@ fn values(
         }
         for place in places.iter().filter(fits) {
             let Some(object) = objects.all.get_mut(place.object) else { continue };
-            if object.is_wanted {
+            if let Some(values) = &mut object.values {
                 let left = (place.count as u64).saturating_sub(row);
-                place.append(object, bytes, width, left.min(count as u64) as usize);
+                place.append(values, bytes, width, left.min(count as u64) as usize);
             }
         }
         row += count as u64;
@@ -172,13 +172,13 @@ impl Place {
     }
 
     /// Appends the values in rows.
-    fn append(&self, object: &mut Object, rows: &[u8], width: usize, count: usize) {
+    fn append(&self, values: &mut Vec<f64>, rows: &[u8], width: usize, count: usize) {
         let Scaler { offset, bit, .. } = self.scaler;
-        let first = object.values.len();
+        let first = values.len();
         let bytes = rows.get(offset..).unwrap_or_default();
-        self.number.append(&mut object.values, bytes, width, count);
+        self.number.append(values, bytes, width, count);
         if let Some(bit) = bit {
-            for value in object.values.iter_mut().skip(first) {
+            for value in values.iter_mut().skip(first) {
                 *value = f64::from(u8::from(*value as u64 >> bit & 1 == 1));
             }
         }

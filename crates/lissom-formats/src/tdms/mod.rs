@@ -58,11 +58,10 @@ struct Object {
     has_data: bool,
     /// Whether it is in the list of objects of the present segment.
     is_listed: bool,
-    /// Whether its values are read.
-    is_wanted: bool,
     /// Number of its values.
     count: u64,
-    values: Vec<f64>,
+    /// `None` if it is not wanted.
+    values: Option<Vec<f64>>,
     has_stamps: bool,
     /// The first time stamp, from which others are counted: seconds, and fractions of 2^-64 s.
     first_stamp: Option<(i64, u64)>,
@@ -191,7 +190,7 @@ impl Objects {
             return *place;
         }
         let mut object = Object { path: metadata::names(&path), ..Object::default() };
-        object.is_wanted = wanted.has(&object.name());
+        object.values = wanted.has(&object.name()).then(Vec::new);
         self.all.push(object);
         self.places.insert(path, self.all.len() - 1);
         self.all.len() - 1
@@ -206,7 +205,7 @@ fn collect(mut objects: Objects, found: &mut Collected) {
         if object.count == 0 {
             continue;
         }
-        let mut values = std::mem::take(&mut object.values);
+        let mut values = object.values.take().unwrap_or_default();
         match scales {
             None => {}
             Some(Ok(scales)) => scales.iter().for_each(|scale| scale.apply(&mut values)),

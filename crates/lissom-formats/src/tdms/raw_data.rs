@@ -181,12 +181,12 @@ impl Chunks<'_, '_> {
             RawType::Number(_) | RawType::TimeStamp => {
                 object.count += count;
                 object.has_stamps |= of == RawType::TimeStamp && count > 0;
-                if object.is_wanted {
+                if let Some(values) = &mut object.values {
                     let count = usize::try_from(count).unwrap_or(usize::MAX);
                     self.found.take_bytes(count.saturating_mul(size_of::<f64>()))?;
-                    object.values.reserve(count);
+                    values.reserve(count);
                 }
-                Ok(object.is_wanted)
+                Ok(object.values.is_some())
             }
             RawType::Complex { .. } => {
                 self.found.leave_out(&object.name(), &COMPLEX);
@@ -206,14 +206,16 @@ impl Object {
         count: usize,
         big_endian: bool,
     ) {
+        let Some(values) = &mut self.values else { return };
         match of {
-            RawType::Number(kind) if self.is_wanted => {
-                Number::new(kind, big_endian).append(&mut self.values, bytes, stride, count);
+            RawType::Number(kind) => {
+                Number::new(kind, big_endian).append(values, bytes, stride, count);
             }
-            RawType::TimeStamp if self.is_wanted => {
-                stamps(self, bytes, stride, count, big_endian);
+            RawType::TimeStamp => {
+                let stamps = bytes.chunks(stride.max(1)).take(count);
+                append_stamps(values, &mut self.first_stamp, stamps, big_endian);
             }
-            _ => {}
+            RawType::Complex { .. } | RawType::Text | RawType::Daqmx | RawType::Unknown => {}
         }
     }
 }
@@ -225,15 +227,20 @@ fn share(count: u64, part: u64, whole: u64) -> u64 {
 }
 
 /// Appends time stamps, as seconds since the first one.
-fn stamps(object: &mut Object, bytes: &[u8], stride: usize, count: usize, big_endian: bool) {
-    for stamp in bytes.chunks(stride.max(1)).take(count) {
+fn append_stamps<'b>(
+    values: &mut Vec<f64>,
+    first_stamp: &mut Option<(i64, u64)>,
+    stamps: impl Iterator<Item = &'b [u8]>,
+    big_endian: bool,
+) {
+    for stamp in stamps {
         let Some(bytes) = stamp.first_chunk::<16>() else { return };
         let value =
             if big_endian { u128::from_be_bytes(*bytes) } else { u128::from_le_bytes(*bytes) };
         // The upper half counts seconds, the lower half fractions of a second.
         let (seconds, fractions) = ((value >> 64) as i64, value as u64);
-        let (first, first_fractions) = *object.first_stamp.get_or_insert((seconds, fractions));
+        let (first, first_fractions) = *first_stamp.get_or_insert((seconds, fractions));
         let fraction = (fractions as f64 - first_fractions as f64) / FRACTIONS_PER_S;
-        object.values.push(seconds.wrapping_sub(first) as f64 + fraction);
+        values.push(seconds.wrapping_sub(first) as f64 + fraction);
     }
 }

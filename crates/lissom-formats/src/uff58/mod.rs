@@ -16,10 +16,12 @@ use std::collections::HashMap;
 use frequency::Frequencies;
 use header::{Header, Lines};
 
+use crate::channel_ref::Wanted;
 use crate::collected::{Collected, LeftOut};
 use crate::format::Format;
 use crate::format_error::FormatError;
 use crate::log_data::{Channel, Clock, LogData};
+use crate::source::Source;
 
 /// The line that begins and ends a dataset.
 const MARK: &[u8] = b"-1";
@@ -61,11 +63,13 @@ fn dataset(line: &[u8]) -> Option<(u32, bool)> {
 }
 
 /// Reads a file.
-pub(crate) fn read(bytes: &[u8]) -> Result<LogData, FormatError> {
-    let mut found = Collected::new();
+pub(crate) fn read(source: &Source, wanted: Wanted) -> Result<LogData, FormatError> {
+    // The lines of a text are short, and the file is in memory.
+    let bytes = source.all()?;
+    let mut found = Collected::of(wanted);
     let mut names = HashMap::new();
     let mut frequencies = Frequencies::default();
-    let mut lines = Lines::new(bytes);
+    let mut lines = Lines::new(&bytes);
     while let Some(line) = lines.next() {
         if !is_mark(line) {
             continue;
