@@ -1,7 +1,7 @@
-//! The source of the bytes of a file: the file itself, or its bytes in memory if it is compressed.
+//! Opens a file, and expands it if it is compressed.
 
 use std::fs::File;
-use std::io::{BufReader, ErrorKind, Read, Seek as _};
+use std::io::{BufReader, Cursor, ErrorKind, Read, Seek as _};
 use std::path::Path;
 use std::sync::Arc;
 
@@ -19,8 +19,15 @@ pub(crate) const GZIP: &[u8] = b"\x1f\x8b";
 /// See [`GZIP`].
 pub(crate) const ZSTD: &[u8] = b"\x28\xb5\x2f\xfd";
 
-/// The bytes of a file. `.gz` and `.zst`, recognised by content, are expanded in memory.
-pub(crate) fn of_file(path: &Path) -> Result<Source, FormatError> {
+/// The bytes of a file that is opened.
+pub(crate) enum Opened {
+    Plain(Source),
+    /// The expanded bytes of `.gz` or `.zst`, recognised by content.
+    Compressed(Box<dyn Read>),
+}
+
+/// Opens a file.
+pub(crate) fn of_file(path: &Path) -> Result<Opened, FormatError> {
     let mut file = File::open(path)?;
     let metadata = file.metadata()?;
     if metadata.is_dir() {
@@ -36,27 +43,38 @@ pub(crate) fn of_file(path: &Path) -> Result<Source, FormatError> {
     let mut first = Vec::new();
     file.by_ref().take(ZSTD.len() as u64).read_to_end(&mut first)?;
     file.rewind()?;
-    if let Some(expanded) = expanded(&first, BufReader::new(&file)) {
-        return Ok(Source::in_memory(expanded?));
+    if is_compressed(&first) {
+        return decoder(&first, BufReader::new(file)).map(Opened::Compressed);
     }
-    Ok(Source::File { file: Arc::new(file), length: metadata.len() })
+    Ok(Opened::Plain(Source::File { file: Arc::new(file), length: metadata.len() }))
 }
 
-/// Bytes in memory, expanded if they are compressed.
-pub(crate) fn of_bytes(bytes: Vec<u8>) -> Result<Source, FormatError> {
-    let expanded = expanded(&bytes, &bytes[..]).transpose()?;
-    Ok(Source::in_memory(expanded.unwrap_or(bytes)))
+/// Bytes in memory.
+pub(crate) fn of_bytes(bytes: Vec<u8>) -> Result<Opened, FormatError> {
+    if !is_compressed(&bytes) {
+        return Ok(Opened::Plain(Source::in_memory(bytes)));
+    }
+    let first: Vec<u8> = bytes.iter().take(ZSTD.len()).copied().collect();
+    decoder(&first, Cursor::new(bytes)).map(Opened::Compressed)
 }
 
-/// Expands the bytes of a reader; `None` if the first ones are not those of a compressed file.
-fn expanded(first: &[u8], reader: impl Read) -> Option<Result<Vec<u8>, FormatError>> {
+fn is_compressed(first: &[u8]) -> bool {
+    first.starts_with(GZIP) || first.starts_with(ZSTD)
+}
+
+/// The expanded bytes of a reader with these first bytes.
+fn decoder(first: &[u8], reader: impl Read + 'static) -> Result<Box<dyn Read>, FormatError> {
     if first.starts_with(GZIP) {
-        return Some(read_compressed(MultiGzDecoder::new(reader)));
+        return Ok(Box::new(MultiGzDecoder::new(reader)));
     }
-    first.starts_with(ZSTD).then(|| {
-        let damaged = |reason: String| FormatError::Damaged { reason };
-        read_compressed(StreamingDecoder::new(reader).map_err(|e| damaged(e.to_string()))?)
-    })
+    let damaged = |reason: String| FormatError::Damaged { reason };
+    let decoder = StreamingDecoder::new(reader).map_err(|e| damaged(e.to_string()))?;
+    Ok(Box::new(decoder))
+}
+
+/// Expands all bytes.
+pub(crate) fn expanded(reader: impl Read) -> Result<Source, FormatError> {
+    read_compressed(reader).map(Source::in_memory)
 }
 
 fn read_compressed(reader: impl Read) -> Result<Vec<u8>, FormatError> {

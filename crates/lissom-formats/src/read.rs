@@ -1,8 +1,9 @@
 //! Reads a file of any format.
 
+use std::io::{BufReader, Cursor, Read};
 use std::path::Path;
 
-use crate::bytes::{GZIP, ZSTD};
+use crate::bytes::{GZIP, Opened, ZSTD};
 use crate::channel_ref::{ChannelRef, Wanted};
 use crate::format::foreign;
 use crate::format_error::FormatError;
@@ -13,6 +14,9 @@ use crate::{binary, bytes, text};
 
 /// Bytes at the beginning of a file that show its format.
 const FIRST_BYTES: u64 = 4096;
+
+/// Bytes that are expanded at once.
+const BLOCK_BYTES: usize = 1 << 16;
 
 /// Reads all channels of a log file.
 ///
@@ -27,7 +31,7 @@ pub fn read(path: &Path) -> Result<LogData, FormatError> {
 /// # Errors
 /// As [`read`], and [`FormatError::Content`] if there is no table where the options state it.
 pub fn read_with(path: &Path, options: &ReadOptions) -> Result<LogData, FormatError> {
-    of_source(&bytes::of_file(path)?, options, Wanted::ALL)
+    of_opened(bytes::of_file(path)?, options, Wanted::ALL)
 }
 
 /// Reads some channels of a log file, and the time stamps that the file gives them. Of the others the values may be left
@@ -40,7 +44,7 @@ pub fn read_channels(
     options: &ReadOptions,
     channels: &[ChannelRef],
 ) -> Result<LogData, FormatError> {
-    of_source(&bytes::of_file(path)?, options, Wanted::of(channels))
+    of_opened(bytes::of_file(path)?, options, Wanted::of(channels))
 }
 
 /// Reads all channels of a log file that is in memory.
@@ -48,7 +52,32 @@ pub fn read_channels(
 /// # Errors
 /// As [`read`].
 pub fn read_bytes(bytes: Vec<u8>) -> Result<LogData, FormatError> {
-    of_source(&bytes::of_bytes(bytes)?, &ReadOptions::default(), Wanted::ALL)
+    of_opened(bytes::of_bytes(bytes)?, &ReadOptions::default(), Wanted::ALL)
+}
+
+fn of_opened(
+    opened: Opened,
+    options: &ReadOptions,
+    wanted: Wanted,
+) -> Result<LogData, FormatError> {
+    let mut reader = match opened {
+        Opened::Plain(source) => return of_source(&source, options, wanted),
+        Opened::Compressed(reader) => reader,
+    };
+    let mut first = Vec::new();
+    let damaged = |error: std::io::Error| FormatError::Damaged { reason: error.to_string() };
+    reader.by_ref().take(FIRST_BYTES).read_to_end(&mut first).map_err(damaged)?;
+    let is_binary = binary::is_recognised(&first) || foreign(&first).is_some();
+    let whole = Cursor::new(first).chain(reader);
+    if is_binary {
+        return of_source(&bytes::expanded(whole)?, options, wanted);
+    }
+    text::read(&mut BufReader::with_capacity(BLOCK_BYTES, whole), options, wanted).map_err(
+        |error| match error {
+            FormatError::Read { source } => damaged(source),
+            other => other,
+        },
+    )
 }
 
 fn of_source(

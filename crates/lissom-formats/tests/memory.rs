@@ -212,3 +212,31 @@ fn chunks_of_mcap_are_read_one_by_one() {
     };
     check(write, |k| format!("/t/x[{k}]"));
 }
+
+/// A table with decimal commas.
+fn write_table(out: &mut impl Write) {
+    let names: Vec<String> = (1..=CHANNELS).map(|k| format!("c{k} [rad]")).collect();
+    writeln!(out, "{}", names.join(";")).unwrap();
+    let mut block = String::new();
+    for row in 0..BLOCK_ROWS {
+        let cells: Vec<String> = (1..=CHANNELS).map(|k| format!("{:.3}", value(row, k))).collect();
+        block += &(cells.join(";").replace('.', ",") + "\n");
+    }
+    (0..BLOCKS).for_each(|_| out.write_all(block.as_bytes()).unwrap());
+}
+
+#[test]
+fn a_text_is_read_line_by_line() {
+    let write = |file: &mut File| write_table(file);
+    check(write, |k| format!("c{k} [rad]"));
+}
+
+#[test]
+fn a_compressed_text_is_expanded_while_it_is_read() {
+    let write = |file: &mut File| {
+        let mut file = flate2::write::GzEncoder::new(file, Compression::fast());
+        write_table(&mut file);
+        file.finish().unwrap();
+    };
+    check(write, |k| format!("c{k} [rad]"));
+}

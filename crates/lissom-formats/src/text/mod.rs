@@ -30,11 +30,8 @@ use crate::json;
 use crate::log_data::LogData;
 use crate::read_options::ReadOptions;
 use decode::decoded;
-use rest::Rest;
+use rest::{MOST_LINES, Rest};
 use table::Table;
-
-/// Most lines of a text, which take 2 GiB of memory in addition to it.
-const MOST_LINES: usize = 1 << 27;
 
 /// Bytes at the beginning of a text that show how it is written.
 const HEAD_BYTES: u64 = 1 << 20;

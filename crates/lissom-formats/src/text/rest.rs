@@ -9,6 +9,8 @@ use crate::format_error::FormatError;
 
 /// Longest line \[byte\].
 const LONGEST_LINE: u64 = 1 << 26;
+/// Most lines of a text.
+pub(super) const MOST_LINES: usize = 1 << 27;
 
 /// The lines of a text that were not read yet.
 pub(crate) struct Rest<'a> {
@@ -35,6 +37,12 @@ impl<'a> Rest<'a> {
             self.left.checked_sub(length).ok_or(FormatError::TooLarge { most: MOST_BYTES })?;
         if length == 0 {
             return Ok(None);
+        }
+        if self.row > MOST_LINES {
+            return Err(FormatError::content(
+                "text",
+                format!("it has more than {MOST_LINES} lines"),
+            ));
         }
         if length > LONGEST_LINE {
             let reason = format!("is longer than {LONGEST_LINE} bytes");

@@ -4,6 +4,7 @@ use super::cells::{Decimal, Separator};
 use super::column::Column;
 use super::header::Header;
 use super::row::Row;
+use crate::bytes::MOST_BYTES;
 use crate::channel_ref::Wanted;
 use crate::log_data::Channel;
 
@@ -53,6 +54,12 @@ impl Rows {
                 column.take(cell, self.decimal, row);
             }
         }
+    }
+
+    /// Whether its values take more memory than a file may.
+    pub(super) fn are_too_many(&self) -> bool {
+        let values = self.columns.iter().map(|column| column.values().len()).sum::<usize>();
+        (values * size_of::<f64>()) as u64 > 2 * MOST_BYTES
     }
 
     /// Appends a line if it is a row of the table.

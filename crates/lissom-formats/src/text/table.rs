@@ -8,6 +8,7 @@ use super::preamble::Preamble;
 use super::rest::Rest;
 use super::rows::Rows;
 use super::stamp_pairs;
+use crate::bytes::MOST_BYTES;
 use crate::channel_ref::Wanted;
 use crate::format::Format;
 use crate::format_error::FormatError;
@@ -15,6 +16,8 @@ use crate::log_data::{Channel, LogData};
 
 /// A table with at most so many rows may have one row for each signal.
 const FEW_ROWS: usize = 20;
+/// Rows after which the memory is looked at.
+const CHECKED_ROWS: usize = 4096;
 /// Lines after the table that may contain something else.
 const LAST_LINES: usize = 4;
 
@@ -157,6 +160,9 @@ fn go_on(rows: &mut Rows, mut rest: Rest) -> Result<Option<String>, FormatError>
                 return Ok(Some(incomplete(row)));
             }
             if rows.take_if_row(&line, row) {
+                if row % CHECKED_ROWS == 0 && rows.are_too_many() {
+                    return Err(FormatError::TooLarge { most: MOST_BYTES });
+                }
                 continue;
             }
             after = Some((row, line.into_owned()));
