@@ -122,6 +122,7 @@ impl LogArgs {
             speed: self.speed.clone(),
             tips: self.tip.clone(),
             hold: self.hold.clone(),
+            hold_shown: None,
             drive: drive.into_iter().filter_map(|(k, v)| Some((k.to_owned(), v?))).collect(),
             gravity: self.gravity,
             mgl: self.mgl.clone(),

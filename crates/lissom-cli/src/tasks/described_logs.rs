@@ -2,6 +2,8 @@
 
 use std::path::{Path, PathBuf};
 
+use lissom::identify::hold_shown;
+use lissom::record::Hold;
 use lissom_io::inspect::{CampaignDraft, Description, DraftError, Inspection, inspect_with};
 use lissom_io::{CampaignFile, read_campaign_text};
 
@@ -27,7 +29,27 @@ impl DescribedLogs {
         for other in &logs[1..] {
             log.same_units(other, &said.text_options())?;
         }
-        Ok(Self { log, draft })
+        let mut described = Self { log, draft };
+        if let Some(hold) = described.hold_shown() {
+            let said = Description { hold_shown: Some(hold), ..said.clone() };
+            let draft = CampaignDraft::new(&described.log, logs, &said);
+            described.draft = draft.map_err(lissom_io::Error::from)?;
+        }
+        Ok(described)
+    }
+
+    /// That the command is held, and why, if only the motion shows it. Logs that cannot be read show nothing here.
+    fn hold_shown(&self) -> Option<(String, String)> {
+        if !self.draft.assumes_hold() {
+            return None;
+        }
+        let campaign = self.read().ok()?.campaign;
+        let found = hold_shown(&campaign).filter(|found| found.hold == Hold::Sampled)?;
+        let why = format!(
+            "as a measured command it would act {:.2} ± {:.2} samples late: it is held from one sample to the next",
+            found.delay_samples, found.delay_std_samples
+        );
+        Some(("sampled".to_owned(), why))
     }
 
     /// What does not agree in the first log.

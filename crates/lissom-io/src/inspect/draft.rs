@@ -18,6 +18,9 @@ use super::words::{commanded, words};
 use crate::log::LogPath;
 use crate::units::{Dimension, parse_any_unit};
 
+/// Why a command is taken as measured if nothing says so.
+const MEASURED: &str = "taken as measured by a sensor";
+
 /// What a user says about logs. What is absent is taken from the log where it is unambiguous.
 #[derive(Debug, Clone, Default, PartialEq, Eq)]
 pub struct Description {
@@ -41,6 +44,8 @@ pub struct Description {
     pub skip_rows: usize,
     /// Whether the command is held between samples (`sampled`) or a sensor's value (`measured`).
     pub hold: Option<String>,
+    /// The same as the motion shows it, and why, for the case that nobody says it.
+    pub hold_shown: Option<(String, String)>,
     /// Keys of `[drive]`, with their values as a `campaign.toml` has them.
     pub drive: Vec<(String, String)>,
     /// Whether gravity of an unbalanced load acts.
@@ -161,6 +166,11 @@ impl CampaignDraft {
     pub fn taken(&self) -> impl Iterator<Item = (&str, &str)> {
         let taken = self.lines.iter().filter(|l| l.taken && l.missing.is_none());
         taken.map(|l| (l.text.as_str(), l.why.as_str()))
+    }
+
+    /// Whether the command is taken as measured because nothing says how it acts between its samples.
+    pub fn assumes_hold(&self) -> bool {
+        self.lines.iter().any(|line| line.why.contains(MEASURED) && line.missing.is_none())
     }
 
     /// What is missing.
@@ -327,16 +337,19 @@ impl Signals<'_> {
         if picked.choice.is_some_and(|c| c.keys.iter().any(|(key, _)| key == "hold")) {
             return ("measured", None);
         }
+        if let Some((hold, why)) = &self.said.hold_shown {
+            return (hold, Some(why.clone()));
+        }
         let words = words(&picked.channel.name);
         // A voltage that a drive puts on the winding is its command.
         let drive = words.iter().find(|w| ["pwm", "duty"].contains(&w.as_str()));
         match commanded(&words).or(drive.map(String::as_str)) {
-            Some(word) => {
-                ("sampled", Some(format!("taken as commanded: its name has \"{word}\"")))
-            }
+            Some(word) => ("sampled", Some(format!("taken as commanded: its name has \"{word}\""))),
             None => (
                 "measured",
-                Some("taken as measured by a sensor; hold = \"sampled\" for a value that the controller commands".to_owned()),
+                Some(format!(
+                    "{MEASURED}; hold = \"sampled\" for a value that the controller commands"
+                )),
             ),
         }
     }

@@ -427,7 +427,8 @@ impl Describe for RegressionFinding {
             Self::OneSine => "use the output-error method, or add a run at another frequency",
             Self::MissingTerm { term, .. } => match term.kind {
                 MissingKind::Delay => {
-                    "shift the channels against each other, or log the current where it is measured"
+                    "check `hold` of the command (a value that the controller sets is \"sampled\", one of a sensor \"measured\": \
+                     they differ by half a sample), or log the current where it is measured"
                 }
                 MissingKind::Gravity => "add [load] gravity = true to the campaign",
                 MissingKind::Position => {

@@ -79,6 +79,9 @@ pub struct MotorRegression {
     pub left: LeftTorque,
     /// Lag of the angle behind the command that the estimates take into account.
     pub lag: Option<AngleLag>,
+    /// Delay with which the command acts beside what the equation has \[s\], with the channels as they are logged; `None` if the
+    /// logs do not show it.
+    pub delay: Option<Estimate>,
     /// Share by which inertia is underestimated if the residual torque is not noise but a real torque that accelerates
     /// the motor \[1\], for example friction that varies in an open loop. Given if each run turns in one direction,
     /// because such runs are not driven by a position loop.
@@ -206,6 +209,7 @@ pub fn motor_regression(prepared: &Prepared<'_>, options: &Options) -> Option<Mo
         let mut found = on_slip_phases(campaign, noise, &options.window_s, None)?;
         let delay =
             |found: &MotorRegression| found.missing.filter(|m| m.kind == MissingKind::Delay);
+        let as_logged = found.delay;
         let mut lag = delay(&found).and_then(|missing| angle_lag(campaign, noise, &missing));
         // With the command as late as the angle the equation holds; a delay that it still lacks corrects the lag.
         for _ in 0..LAG_ROUNDS {
@@ -215,6 +219,7 @@ pub fn motor_regression(prepared: &Prepared<'_>, options: &Options) -> Option<Mo
             found = late;
             lag = delay(&found).map(|missing| now.longer_by(missing.value));
         }
+        found.delay = as_logged;
         Some(found)
     })
 }
@@ -343,6 +348,7 @@ fn on_slip_phases(
         mode: shown.map(|mode| mode.report(Moved::between(&rigid_solution, solution))),
         left,
         lag,
+        delay: delay_beside(&clusters, &terms, columns),
         inertia_short_by,
         left_out,
         beside_others,
@@ -480,10 +486,26 @@ fn turn_one_way(clusters: &[Cluster]) -> bool {
 
 /// By how much a standard error of a delay of the command moves each term: the delay is estimated, too.
 fn changes_by_delay(clusters: &[Cluster], terms: &[Term], columns: &MotorColumns) -> Vec<f64> {
-    let delay = Term::Plain(columns.count() + MissingKind::Delay.column());
-    let with: Vec<Term> = terms.iter().copied().chain([delay]).collect();
-    let Some(solution) = solve(clusters, &with) else { return vec![0.0; terms.len()] };
+    let Some(solution) = with_delay(clusters, terms, columns) else {
+        return vec![0.0; terms.len()];
+    };
     let last = terms.len();
     let std = solution.covariance[(last, last)].max(f64::MIN_POSITIVE).sqrt();
     (0..last).map(|i| solution.covariance[(i, last)] / std / WINDOW_SYSTEMATIC).collect()
+}
+
+/// The solution with a delay of the command as the last term.
+fn with_delay(clusters: &[Cluster], terms: &[Term], columns: &MotorColumns) -> Option<Solution> {
+    let delay = Term::Plain(columns.count() + MissingKind::Delay.column());
+    let with: Vec<Term> = terms.iter().copied().chain([delay]).collect();
+    solve(clusters, &with)
+}
+
+/// A delay of the command \[s\] beside the other terms.
+fn delay_beside(clusters: &[Cluster], terms: &[Term], columns: &MotorColumns) -> Option<Estimate> {
+    let solution = with_delay(clusters, terms, columns)?;
+    let last = terms.len();
+    let std = solution.covariance[(last, last)].max(0.0).sqrt();
+    // The column is the rate of the torque, with which the torque of an earlier time is made.
+    (!solution.inseparable[last]).then(|| Estimate { value: -solution.value[last], std })
 }
