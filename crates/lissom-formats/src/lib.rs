@@ -54,6 +54,8 @@ mod number;
 mod numpy;
 #[cfg(feature = "parquet")]
 mod parquet_file;
+#[cfg(feature = "parquet")]
+mod parquet_pages;
 mod parts;
 mod plain_decimal;
 mod read;

@@ -3,12 +3,11 @@
 //! Time stamps and dates are seconds from the first one of their column; times of day are seconds from midnight. Nulls are
 //! NaN.
 
-use bytes::Bytes;
 use parquet::basic::{LogicalType, TimeUnit, Type};
 use parquet::column::reader::{ColumnReader, ColumnReaderImpl};
 use parquet::data_type::DataType;
 use parquet::errors::ParquetError;
-use parquet::file::reader::{ChunkReader, FileReader, Length, SerializedFileReader};
+use parquet::file::reader::{FileReader, SerializedFileReader};
 use parquet::schema::types::ColumnDescriptor;
 
 use crate::channel_ref::Wanted;
@@ -18,15 +17,13 @@ use crate::format_error::FormatError;
 use crate::guard::guarded;
 use crate::log_data::{Channel, LogData};
 use crate::number::half;
+use crate::parquet_pages::Pages;
 use crate::source::Source;
-use crate::stream::Stream;
 
 /// First bytes of a file.
 pub(crate) const PARQUET: &[u8] = b"PAR1";
 /// Rows that are decoded at once.
 const BATCH_ROWS: usize = 8192;
-/// Bytes that are read at once for the header of a page.
-const HEADER_BYTES: usize = 4096;
 
 const LISTS: LeftOut = LeftOut {
     what: "columns of lists or maps",
@@ -36,40 +33,6 @@ const BINARY: LeftOut = LeftOut {
     what: "columns of bytes that are no numbers",
     way_out: "in Python: df.to_csv(\"log.csv\")",
 };
-
-/// A file whose pages are read one by one.
-struct Pages(Source);
-
-impl Length for Pages {
-    fn len(&self) -> u64 {
-        self.0.length()
-    }
-}
-
-impl ChunkReader for Pages {
-    type T = Stream;
-
-    fn get_read(&self, start: u64) -> Result<Self::T, ParquetError> {
-        if start > self.len() {
-            let length = self.len();
-            return Err(ParquetError::EOF(format!(
-                "Expected to read at offset {start}, while file has length {length}"
-            )));
-        }
-        Ok(self.0.stream(start).in_blocks_of(HEADER_BYTES))
-    }
-
-    fn get_bytes(&self, start: u64, count: usize) -> Result<Bytes, ParquetError> {
-        let end = start.saturating_add(count as u64);
-        if end > self.len() {
-            let length = self.len();
-            return Err(ParquetError::EOF(format!(
-                "Expected to read {count} bytes at offset {start}, while file has length {length}"
-            )));
-        }
-        Ok(self.0.bytes(start..end)?.into_owned().into())
-    }
-}
 
 #[expect(clippy::needless_pass_by_value, reason = "for map_err")]
 fn damaged(error: ParquetError) -> FormatError {

@@ -41,7 +41,7 @@ impl Stream {
     }
 
     /// The same, of which other numbers of bytes are read at once.
-    #[cfg(feature = "parquet")]
+    #[cfg(any(feature = "parquet", test))]
     pub(crate) fn in_blocks_of(self, block_bytes: usize) -> Self {
         Self { block_bytes, ..self }
     }
@@ -123,5 +123,53 @@ impl Read for Stream {
         let read = self.fill_buf()?.read(out)?;
         self.consume(read);
         Ok(read)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use std::io::{Seek, SeekFrom, Write};
+    use std::sync::Arc;
+
+    use super::*;
+
+    /// The bytes 0 to 99, on the disk and in memory.
+    fn sources() -> [Source; 2] {
+        let bytes: Vec<u8> = (0..100).collect();
+        let mut file = tempfile::tempfile().unwrap();
+        file.write_all(&bytes).unwrap();
+        file.seek(SeekFrom::Start(7)).unwrap();
+        [Source::File { file: Arc::new(file), length: 100 }, Source::in_memory(bytes)]
+    }
+
+    #[test]
+    fn bytes_are_read_and_skipped_in_any_blocks() {
+        for source in sources() {
+            for block_bytes in [1, 7, 64, 200] {
+                let mut stream = source.part(10..90).in_blocks_of(block_bytes);
+                assert_eq!(stream.next_bytes(3).unwrap().unwrap(), [10, 11, 12]);
+                stream.skip(20).unwrap().unwrap();
+                assert_eq!((stream.place(), stream.left()), (33, 57));
+                let bytes = stream.next_bytes(30).unwrap().unwrap();
+                assert!(bytes.iter().copied().eq(33..63));
+                assert!(stream.next_bytes(28).unwrap().is_none());
+                assert!(stream.skip(28).unwrap().is_none());
+                let mut rest = Vec::new();
+                stream.read_to_end(&mut rest).unwrap();
+                assert!(rest.into_iter().eq(63..90));
+                assert!(stream.next_bytes(0).unwrap().unwrap().is_empty());
+                assert!(stream.next_bytes(1).unwrap().is_none());
+            }
+        }
+    }
+
+    #[test]
+    fn a_range_outside_of_the_file_has_no_bytes() {
+        for source in sources() {
+            assert_eq!(source.part(200..300).left(), 0);
+            assert_eq!(*source.bytes(98..300).unwrap(), [98, 99]);
+            assert!(source.bytes(300..400).unwrap().is_empty());
+            assert!(source.read_at(99, &mut [0; 2]).is_err());
+        }
     }
 }

@@ -3,6 +3,8 @@
 //! A variable is a channel, a matrix several: its longer side counts the samples. Fields of structs are `log/theta`, of
 //! struct arrays `run[3]/theta`, cells are `c[2]`.
 
+#[cfg(feature = "hdf5")]
+mod attributes;
 mod elements;
 mod left_out;
 mod matrix;

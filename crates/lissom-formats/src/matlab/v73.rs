@@ -6,8 +6,9 @@
 use std::collections::BTreeMap;
 use std::slice;
 
-use hdf5_pure::{AttrValue, Dataset, Datatype, Group, Object};
+use hdf5_pure::{Dataset, Datatype, Group, Object};
 
+use super::attributes::{Attributes, is_object};
 use super::left_out::{SPARSE, TOO_DEEP, object as object_class};
 use super::value::{Struct, Value, collect};
 use crate::array::{Array, axes, items};
@@ -73,32 +74,6 @@ fn children(group: &Group) -> Result<BTreeMap<String, Object>, FormatError> {
         found.insert(name, Object::Group(group));
     }
     Ok(found)
-}
-
-/// The attributes by which MATLAB describes a value.
-struct Attributes {
-    class: Option<String>,
-    is_empty: bool,
-    is_sparse: bool,
-    is_object: bool,
-}
-
-impl Attributes {
-    fn of(object: &Object) -> Result<Self, FormatError> {
-        let attributes = match object {
-            Object::Group(group) => group.attrs(),
-            Object::Dataset(dataset) => dataset.attrs(),
-            _ => Ok(std::collections::HashMap::default()),
-        };
-        let attributes = attributes.map_err(dataset::damaged)?;
-        let class = attributes.get("MATLAB_class").and_then(AttrValue::as_str);
-        Ok(Self {
-            class: class.map(|class| class.trim_end_matches('\0').to_owned()),
-            is_empty: attributes.contains_key("MATLAB_empty"),
-            is_sparse: attributes.contains_key("MATLAB_sparse"),
-            is_object: attributes.contains_key("MATLAB_object_decode"),
-        })
-    }
 }
 
 /// Reads a variable.
@@ -294,27 +269,4 @@ fn is_references(object: &Object) -> Result<bool, FormatError> {
     let Object::Dataset(dataset) = object else { return Ok(false) };
     let datatype = dataset.datatype().map_err(dataset::damaged)?;
     Ok(matches!(datatype, Datatype::Reference { .. }))
-}
-
-/// Whether a class has values that are no numbers, texts, structs or cells.
-fn is_object(class: &str) -> bool {
-    const PLAIN: [&str; 16] = [
-        "double",
-        "single",
-        "int8",
-        "int16",
-        "int32",
-        "int64",
-        "uint8",
-        "uint16",
-        "uint32",
-        "uint64",
-        "logical",
-        "char",
-        "cell",
-        "struct",
-        "canonical empty",
-        "",
-    ];
-    !PLAIN.contains(&class)
 }
