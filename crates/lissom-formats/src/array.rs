@@ -3,17 +3,14 @@
 //! The longest axis of an array counts the samples; every place on the other axes is a channel. Of a square array the
 //! columns are the channels.
 
-use crate::collected::{Collected, LeftOut};
+use crate::collected::Collected;
 use crate::columns::{Column, Columns, Values};
 use crate::format_error::FormatError;
 use crate::number::Number;
 
 /// Most channels of one array.
 const MOST_CHANNELS: usize = 4096;
-pub(crate) const MANY_CHANNELS: LeftOut = LeftOut {
-    what: "arrays with more than 4096 channels",
-    way_out: "save the rows or columns that are needed as an array of their own",
-};
+
 /// Where the numbers of an array are, in items that follow each other.
 #[derive(Debug, Clone)]
 pub(crate) struct Array {

@@ -1,12 +1,15 @@
 //! The channels of arrays while the bytes of the arrays are read.
 
-use crate::array::MANY_CHANNELS;
-use crate::collected::Collected;
+use crate::collected::{Collected, LeftOut};
 use crate::format_error::FormatError;
 use crate::log_data::Channel;
 use crate::number::Number;
 use crate::stream::Input;
 
+pub(crate) const MANY_CHANNELS: LeftOut = LeftOut {
+    what: "arrays with more than 4096 channels",
+    way_out: "save the rows or columns that are needed as an array of their own",
+};
 /// Bytes that are decoded for all channels before the next ones: they fit into the cache of a core.
 const BLOCK_BYTES: usize = 1 << 15;
 

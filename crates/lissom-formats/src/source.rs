@@ -6,8 +6,6 @@ use std::io::{self, ErrorKind, Read as _, Seek as _, SeekFrom};
 use std::ops::Range;
 use std::sync::Arc;
 
-use crate::stream::Stream;
-
 /// The bytes of a file, on the disk or in memory.
 #[derive(Debug, Clone)]
 pub(crate) enum Source {
@@ -64,16 +62,5 @@ impl Source {
     /// All bytes.
     pub(crate) fn all(&self) -> io::Result<Cow<'_, [u8]>> {
         self.bytes(0..u64::MAX)
-    }
-
-    /// The bytes from a place to the end of the file.
-    pub(crate) fn stream(&self, from: u64) -> Stream {
-        self.part(from..u64::MAX)
-    }
-
-    /// The bytes in a range, as far as the file has them.
-    pub(crate) fn part(&self, range: Range<u64>) -> Stream {
-        let end = range.end.min(self.length());
-        Stream::new(self.clone(), range.start.min(end)..end)
     }
 }

@@ -33,13 +33,22 @@ pub(crate) struct Stream {
     block_bytes: usize,
 }
 
-impl Stream {
-    /// The bytes in a range that the file has.
-    pub(crate) fn new(source: Source, range: Range<u64>) -> Self {
-        let Range { start: at, end } = range;
-        Self { source, at, end, block: Vec::new(), block_at: at, block_bytes: BLOCK_BYTES }
+impl Source {
+    /// The bytes from a place to the end of the file.
+    pub(crate) fn stream(&self, from: u64) -> Stream {
+        self.part(from..u64::MAX)
     }
 
+    /// The bytes in a range, as far as the file has them.
+    pub(crate) fn part(&self, range: Range<u64>) -> Stream {
+        let end = range.end.min(self.length());
+        let at = range.start.min(end);
+        let (source, block) = (self.clone(), Vec::new());
+        Stream { source, at, end, block, block_at: at, block_bytes: BLOCK_BYTES }
+    }
+}
+
+impl Stream {
     /// The same, of which other numbers of bytes are read at once.
     #[cfg(any(feature = "parquet", test))]
     pub(crate) fn in_blocks_of(self, block_bytes: usize) -> Self {

@@ -13,10 +13,10 @@ use std::collections::HashSet;
 
 use hdf5_pure::{Dataset, Datatype, Group, Layout};
 
-use crate::array::{Array, Axis, MANY_CHANNELS, axes};
+use crate::array::{Array, Axis, axes};
 use crate::channel_ref::Wanted;
 use crate::collected::{Collected, LeftOut};
-use crate::columns::Columns;
+use crate::columns::{Columns, MANY_CHANNELS};
 use crate::format::Format;
 use crate::format_error::FormatError;
 use crate::guard::guarded;

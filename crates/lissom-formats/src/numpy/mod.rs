@@ -7,10 +7,10 @@ mod literal;
 
 use array_type::{ArrayType, Kind, OBJECTS};
 
-use crate::array::{Array, Axis, MANY_CHANNELS, axes, items};
+use crate::array::{Array, Axis, axes, items};
 use crate::channel_ref::Wanted;
 use crate::collected::Collected;
-use crate::columns::{Columns, read_values};
+use crate::columns::{Columns, MANY_CHANNELS, read_values};
 use crate::cursor::Cursor;
 use crate::format::Format;
 use crate::format_error::FormatError;

@@ -1,6 +1,6 @@
 //! Raw data of NI-DAQmx: rows of bytes, one buffer for each device, in which scalers state the places of the channels.
 
-use super::raw_data::RawData;
+use super::raw_bytes::RawBytes;
 use super::raw_index::{RawIndex, RawType};
 use super::{Objects, SCALERS};
 use crate::collected::Collected;
@@ -80,7 +80,7 @@ struct Place {
 pub(super) fn append(
     objects: &mut Objects,
     stored: &[(usize, RawIndex)],
-    mut data: RawData,
+    mut data: RawBytes,
     big_endian: bool,
     found: &mut Collected,
 ) -> Result<(), FormatError> {
@@ -131,7 +131,7 @@ pub(super) fn append(
 fn values(
     objects: &mut Objects,
     places: &[&Place],
-    (data, rows): (&mut RawData, u64),
+    (data, rows): (&mut RawBytes, u64),
     width: usize,
     found: &mut Collected,
 ) -> Result<(), FormatError> {

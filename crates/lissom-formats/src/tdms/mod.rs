@@ -4,6 +4,7 @@
 
 mod daqmx;
 mod metadata;
+mod raw_bytes;
 mod raw_data;
 mod raw_index;
 mod scale;

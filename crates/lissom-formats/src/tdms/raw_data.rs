@@ -1,16 +1,15 @@
 //! Raw data of TDMS segments.
 
+use super::raw_bytes::RawBytes;
 use super::raw_index::{RawIndex, RawType};
 use super::{COMPLEX, IS_BIG_ENDIAN, IS_INTERLEAVED, Object, Objects, Segment, daqmx};
 use crate::collected::Collected;
 use crate::format_error::FormatError;
 use crate::number::Number;
-use crate::stream::{Input, Stream};
+use crate::stream::Stream;
 
 /// Most pieces of raw data, one for each channel in each segment.
 const MOST_VISITS: u64 = 1 << 31;
-/// Bytes that are read at once.
-const BLOCK_BYTES: usize = 1 << 15;
 /// Fractions of a second in a time stamp.
 const FRACTIONS_PER_S: f64 = 18_446_744_073_709_551_616.0;
 
@@ -38,14 +37,14 @@ pub(super) fn append(
     let stored: Vec<(usize, RawIndex)> = objects.listed.iter().filter_map(stored).collect();
     let big_endian = segment.flags & IS_BIG_ENDIAN != 0;
     if stored.iter().any(|(_, index)| index.of == RawType::Daqmx) {
-        let data = RawData { stream, left: segment.raw_bytes };
+        let data = RawBytes::new(stream, segment.raw_bytes);
         return daqmx::append(objects, &stored, data, big_endian, found);
     }
     if stored.iter().any(|(_, index)| index.of == RawType::Unknown) {
         found.note(format!("the raw data of segment {number} are of an unknown type: left out"));
         return Ok(());
     }
-    let data = RawData { stream, left: segment.raw_bytes };
+    let data = RawBytes::new(stream, segment.raw_bytes);
     let mut chunks = Chunks { objects, data, big_endian, found };
     let texts = stored.iter().any(|(_, index)| index.of == RawType::Text);
     if segment.flags & IS_INTERLEAVED != 0 && !texts {
@@ -55,40 +54,10 @@ pub(super) fn append(
     }
 }
 
-/// The raw data of a segment.
-pub(super) struct RawData<'a> {
-    stream: &'a mut Stream,
-    /// Number of bytes that are not yet read.
-    left: u64,
-}
-
-impl RawData<'_> {
-    pub(super) fn left(&self) -> u64 {
-        self.left
-    }
-
-    pub(super) fn skip(&mut self, bytes: u64) -> Result<(), FormatError> {
-        let bytes = bytes.min(self.left);
-        self.left -= bytes;
-        self.stream.skip(bytes)?;
-        Ok(())
-    }
-
-    /// The next rows of a size, at most `most` and not more than are read at once.
-    pub(super) fn rows(&mut self, size: usize, most: u64) -> Result<(&[u8], usize), FormatError> {
-        let size = size.max(1);
-        let rows = most.min(self.left / size as u64).min((BLOCK_BYTES / size).max(1) as u64);
-        let bytes = rows * size as u64;
-        self.left -= bytes;
-        let bytes = self.stream.next_bytes(bytes as usize)?.unwrap_or_default();
-        Ok((bytes, rows as usize))
-    }
-}
-
 /// Appends chunks of raw data.
 struct Chunks<'a, 'w> {
     objects: &'a mut Objects,
-    data: RawData<'a>,
+    data: RawBytes<'a>,
     big_endian: bool,
     found: &'a mut Collected<'w>,
 }
@@ -97,7 +66,7 @@ impl Chunks<'_, '_> {
     /// Rows with a value of each object.
     fn interleaved(&mut self, stored: &[(usize, RawIndex)]) -> Result<(), FormatError> {
         let width = stored.iter().filter_map(|(_, index)| index.of.size()).sum::<usize>();
-        let Some(rows) = self.data.left.checked_div(width as u64) else { return Ok(()) };
+        let Some(rows) = self.data.left().checked_div(width as u64) else { return Ok(()) };
         let mut is_wanted = false;
         for (place, index) in stored {
             is_wanted |= self.count(*place, index.of, rows)?;
@@ -130,20 +99,20 @@ impl Chunks<'_, '_> {
         let stored: Vec<_> = stored.iter().filter(|(_, index)| index.bytes > 0).collect();
         let bytes = |sum: u64, (_, index): &&(usize, RawIndex)| sum.saturating_add(index.bytes);
         let chunk = stored.iter().fold(0, bytes);
-        while self.data.left > 0 && chunk > 0 {
-            let left = self.data.left;
+        while self.data.left() > 0 && chunk > 0 {
+            let left = self.data.left();
             for (place, index) in &stored {
                 // The last chunk of a complete segment may be shorter for all objects.
                 let is_short = left < chunk && is_complete;
                 let count = if is_short { share(index.count, left, chunk) } else { index.count };
                 let size = index.of.size();
                 let wanted = size.map_or(index.bytes, |size| count.saturating_mul(size as u64));
-                let wanted = wanted.min(self.data.left);
-                let behind = self.data.left - wanted;
+                let wanted = wanted.min(self.data.left());
+                let behind = self.data.left() - wanted;
                 if let Some(size) = size {
                     self.values(*place, index.of, size, wanted / size as u64)?;
                 }
-                self.data.skip(self.data.left - behind)?;
+                self.data.skip(self.data.left() - behind)?;
             }
             if left < chunk {
                 break;
