@@ -36,8 +36,8 @@ pub(crate) fn of_file(path: &Path) -> Result<Opened, FormatError> {
     if metadata.len() > MOST_BYTES {
         return Err(FormatError::TooLarge { most: MOST_BYTES });
     }
-    if !metadata.is_file() {
-        // A pipe has no places.
+    if !metadata.is_file() || metadata.len() == 0 {
+        // A pipe is read once, from its beginning.
         return of_bytes(limited(file)?);
     }
     let mut first = Vec::new();

@@ -1,5 +1,7 @@
 //! Parquet files: columns of numbers, and of structs of numbers, `struct/field`.
 //!
+//! The file is read page by page.
+//!
 //! Time stamps and dates are seconds from the first one of their column; times of day are seconds from midnight. Nulls are
 //! NaN.
 

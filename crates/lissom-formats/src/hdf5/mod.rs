@@ -3,6 +3,8 @@
 //! A dataset is a channel with the path of its groups, `run/theta`; of several axes, the longest counts the samples. The
 //! fields of a compound type are `run/theta/field`, the parts of complex numbers `run/h/real` and `run/h/imag`. The attribute `unit` or `units` of a dataset is the unit.
 //! Soft and external links are not followed.
+//!
+//! The file is read in pieces. A chunk of a dataset is in memory as a whole.
 
 pub(crate) mod dataset;
 mod open;

@@ -59,6 +59,7 @@ pub(super) struct Topic {
     /// Whether a channel of it may be wanted.
     is_wanted: bool,
     columns: Vec<Column>,
+    wanted_columns: usize,
     places: HashMap<String, usize>,
     /// Number of messages.
     rows: usize,
@@ -74,6 +75,7 @@ impl Topic {
             name,
             is_wanted,
             columns: Vec::new(),
+            wanted_columns: 0,
             places: HashMap::new(),
             rows: 0,
             log_times: Times::default(),
@@ -100,6 +102,7 @@ impl Topic {
         let rows = if is_wanted { self.rows + 1 } else { 0 };
         found.take_bytes(rows * size_of::<f64>() + size_of::<Column>() + 2 * name.len())?;
         self.places.insert(name.to_owned(), place);
+        self.wanted_columns += usize::from(is_wanted);
         self.columns.push(Column { name: name.to_owned(), is_wanted, values: Vec::new() });
         Ok(Some(place))
     }
@@ -124,9 +127,8 @@ impl Topic {
         stamp_ns: Option<i64>,
         found: &mut Collected,
     ) -> Result<(), FormatError> {
-        let wanted = self.columns.iter().filter(|column| column.is_wanted).count();
         let times = if self.is_wanted { 3 } else { 0 };
-        found.take_bytes((wanted + times) * size_of::<f64>())?;
+        found.take_bytes((self.wanted_columns + times) * size_of::<f64>())?;
         self.rows += 1;
         self.log_times.push(log_time_ns.cast_signed(), self.is_wanted);
         match (&mut self.stamps, stamp_ns) {

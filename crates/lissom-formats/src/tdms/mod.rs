@@ -1,6 +1,7 @@
 //! TDMS files of National Instruments: segments, each with metadata and with raw data of its channels.
 //!
-//! A channel is `group/channel`. The waveform properties of a channel are its clock.
+//! A channel is `group/channel`. The waveform properties of a channel are its clock. The raw data are read in blocks, and those
+//! of channels that are not wanted are skipped.
 
 mod daqmx;
 mod metadata;
