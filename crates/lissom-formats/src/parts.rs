@@ -136,7 +136,7 @@ fn split<'a>(name: &'a str, pattern: &str) -> Option<(&'a str, &'a str)> {
     let ends = rest.char_indices().map(|(k, c)| (k + c.len_utf8(), c));
     for (end, _) in ends.take_while(|(_, c)| *c != '/') {
         if let Some(after_group) = rest[end..].strip_prefix(after)
-            && let Some(inner) = within(if after.is_empty() { before } else { after }, after_group)
+            && let Some(inner) = within(after, after_group)
         {
             return Some((&name[..before.len() + end + after.len()], inner));
         }
@@ -191,6 +191,11 @@ mod tests {
         assert_eq!(named("data[*]"), ["data[2]: q"]);
         assert_eq!(named("b*_"), ["b1_: t", "b12_: t"]);
         assert_eq!(named("b1_"), ["b1_: t"]);
+        let nested = data(&[("m/un_1/t", &[0.0]), ("m/un_2/t", &[0.0])]);
+        for pattern in ["m/*", "m/un_*", "/m/un*"] {
+            let groups: Vec<String> = nested.groups(pattern).into_iter().map(|(g, _)| g).collect();
+            assert_eq!(groups, ["m/un_1", "m/un_2"], "{pattern}");
+        }
         assert!(named("run").is_empty() && named("run3").is_empty());
     }
 

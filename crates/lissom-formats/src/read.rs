@@ -15,6 +15,8 @@ use crate::{binary, bytes, text};
 /// Bytes at the beginning of a file that show its format.
 const FIRST_BYTES: u64 = 4096;
 
+/// Bytes at the beginning of a text that are searched for its header.
+const TEXT_BYTES: usize = 1 << 14;
 /// Bytes that are expanded at once.
 const BLOCK_BYTES: usize = 1 << 16;
 
@@ -95,11 +97,14 @@ fn of_source(
     text::read(&mut source.stream(0), options, wanted)
 }
 
-/// Whether the first bytes of a file show that it is not a plain table: compressed, a trace of CODESYS, binary, or a format
-/// that is recognised and not read.
+/// Whether the first bytes of a file show that it is not a plain table: compressed, a trace of CODESYS, binary, with several
+/// columns of time stamps, or a format that is recognised and not read.
 pub fn is_no_plain_table(first: &[u8]) -> bool {
     let begins = [GZIP, ZSTD, b"[key]"];
     begins.iter().any(|begin| first.starts_with(begin))
         || binary::is_recognised(first)
         || foreign(first).is_some()
+        || text::names_several_times(&String::from_utf8_lossy(
+            &first[..first.len().min(TEXT_BYTES)],
+        ))
 }

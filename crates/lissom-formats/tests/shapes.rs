@@ -264,3 +264,34 @@ fn records_with_long_lists_are_groups() {
     let q = groups[1].1.channels.iter().find(|c| c.name == "q").unwrap();
     assert!((q.values[2] - 11.0).abs() < 1e-12);
 }
+
+#[test]
+fn columns_of_time_stamps_belong_to_the_columns_behind_them() {
+    let mut text = String::from("Time I [ms];I [A];Time q [ms];q [deg]\n");
+    for k in 0..200 {
+        let late = if k < 100 { format!("{};{}", 2 * k, k) } else { ";".to_owned() };
+        let _ = writeln!(text, "{k};{};{late}", 0.5 * f64::from(k));
+    }
+    let found = read(&text);
+    let clocks: Vec<Clock> = found.channels.iter().map(|c| c.clock).collect();
+    use Clock::{Channel, Unstated};
+    assert_eq!(clocks, [Unstated, Channel(0), Unstated, Channel(2)]);
+    // Two clocks of the same rows side by side.
+    let both = text.replace("Time I [ms];I [A]", "I [A];Time I [ms]");
+    assert!(read(&both).channels.iter().all(|c| c.clock == Unstated));
+}
+
+#[test]
+fn repeated_headers_and_remarks_are_left_out() {
+    let header = "t [s];i [A];q [rad]\n";
+    let rows = |from: usize| -> String {
+        (from..from + 120).map(|k| format!("0.{k:03};{k};{}\n", 2 * k)).collect()
+    };
+    let text = format!("{header}{}{header}{}", rows(0), rows(0));
+    let found = read(&text);
+    assert_eq!(found.channels[1].values.len(), 240);
+    assert!(found.channels.iter().all(|c| c.not_a_number.is_none()));
+    let remark = rows(0).replace("0.110;110;220", "0.110;110;220;;bumped into the table");
+    let found = read(&format!("{header}{remark}"));
+    assert_eq!((found.channels.len(), found.channels[1].values.len()), (3, 120));
+}

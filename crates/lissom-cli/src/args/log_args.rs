@@ -49,7 +49,7 @@ pub(crate) struct LogArgs {
     #[arg(long, value_name = "COLUMN:UNIT", value_parser = choice)]
     tip: Vec<Choice>,
     /// Torque constant, e.g. "0.1 N*m/A"
-    #[arg(long, value_name = "QUANTITY")]
+    #[arg(long, value_name = "QUANTITY", allow_hyphen_values = true)]
     torque_constant: Option<String>,
     /// Resistance of the winding, e.g. "1.2 ohm"
     #[arg(long, value_name = "QUANTITY")]

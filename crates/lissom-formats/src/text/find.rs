@@ -1,7 +1,7 @@
 //! Finds the table of numbers in a text: the first long block of rows with the same number of cells.
 
 use super::cells::{Cell, Decimal, Separator};
-use super::lines::{MANY_COLUMNS, is_skipped};
+use super::lines::{MANY_COLUMNS, header_lines, is_skipped};
 use super::row::Row;
 use super::table::Table;
 
@@ -64,7 +64,18 @@ fn find_separated(
         (separator, found) = (stamped, other);
     }
     let Block { first, end, width, .. } = found;
-    Some(Table { lines, separator, decimal, may_be_other, first, end, width, ends_in_a_row })
+    let header = header_lines(&lines, first);
+    Some(Table {
+        lines,
+        header,
+        separator,
+        decimal,
+        may_be_other,
+        first,
+        end,
+        width,
+        ends_in_a_row,
+    })
 }
 
 /// Number of cells of the line above a table.
@@ -118,14 +129,17 @@ fn block(lines: &[&str], skipped: usize, separator: Separator, decimal: Decimal)
             continue;
         }
         let mut block = Block { first: at, end: at, width: 0, values: 0 };
+        let header = header_lines(lines, at);
         while let Some(line) = lines.get(block.end) {
-            if !is_skipped(line) {
+            if !is_skipped(line) && !header.contains(&line.trim()) {
                 let Some(row) = Row::of(line, separator, decimal) else { break };
                 let grows = block.end < block.first + FIRST_ROWS;
-                if row.width > block.width && !grows {
+                if row.values_end > block.width && !grows {
                     break;
                 }
-                block.width = block.width.max(row.width);
+                if grows {
+                    block.width = block.width.max(row.width);
+                }
                 block.values += row.values;
             }
             block.end += 1;

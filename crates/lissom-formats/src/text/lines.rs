@@ -8,3 +8,9 @@ pub(super) fn is_skipped(line: &str) -> bool {
     let line = line.trim_start();
     line.is_empty() || line.starts_with(['#', '%'])
 }
+
+/// The lines of names and units above line `first`: a table may repeat them.
+pub(super) fn header_lines<'a>(lines: &[&'a str], first: usize) -> Vec<&'a str> {
+    let above = lines[..first].iter().rev().map(|line| line.trim());
+    above.filter(|line| !line.is_empty()).take(2).collect()
+}

@@ -16,10 +16,12 @@ mod rows;
 mod stamp_pairs;
 mod stamps;
 mod table;
+mod time_columns;
 mod twincat;
 
 #[cfg(feature = "xlsx")]
 pub(crate) use find::find_in_tabs;
+pub(crate) use time_columns::names_several_times;
 
 use std::io::{BufRead, Read};
 

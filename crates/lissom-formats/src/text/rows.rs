@@ -4,6 +4,7 @@ use super::cells::{Decimal, Separator};
 use super::column::Column;
 use super::header::Header;
 use super::row::Row;
+use super::time_columns::is_named_time;
 use crate::bytes::MOST_BYTES;
 use crate::channel_ref::Wanted;
 use crate::log_data::Channel;
@@ -27,7 +28,8 @@ impl Rows {
     ) -> Self {
         let name = |k: usize| header.names.get(k).map_or("", String::as_str);
         let names: Vec<&str> = (0..width).map(name).collect();
-        let wanted = if wanted.are_all_in(&names) { wanted } else { Wanted::ALL };
+        let has_clocks = names.iter().filter(|name| is_named_time(name)).count() > 1;
+        let wanted = if wanted.are_all_in(&names) && !has_clocks { wanted } else { Wanted::ALL };
         let is_wanted =
             names.iter().enumerate().map(|(k, name)| wanted.has_at(name, Some(k + 1))).collect();
         let columns = (0..width).map(|_| Column::new(0)).collect();
@@ -65,7 +67,7 @@ impl Rows {
     /// Appends a line if it is a row of the table.
     pub(super) fn take_if_row(&mut self, line: &str, row: usize) -> bool {
         let fits = Row::of(line, self.separator, self.decimal)
-            .is_some_and(|row| row.width <= self.width());
+            .is_some_and(|row| row.values_end <= self.width());
         if fits {
             self.take(line, row);
         }

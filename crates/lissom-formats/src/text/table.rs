@@ -8,6 +8,7 @@ use super::preamble::Preamble;
 use super::rest::Rest;
 use super::rows::Rows;
 use super::stamp_pairs;
+use super::time_columns;
 use crate::bytes::MOST_BYTES;
 use crate::channel_ref::Wanted;
 use crate::format::Format;
@@ -24,6 +25,8 @@ const LAST_LINES: usize = 4;
 /// A table in a text.
 pub(crate) struct Table<'a> {
     pub(crate) lines: Vec<&'a str>,
+    /// Names and units above it, which are left out where they are repeated.
+    pub(super) header: Vec<&'a str>,
     pub(crate) separator: Separator,
     pub(crate) decimal: Decimal,
     /// Whether its commas may be decimal or between thousands.
@@ -44,7 +47,7 @@ impl Table<'_> {
         wanted: Wanted,
         rest: Option<Rest>,
     ) -> Result<LogData, FormatError> {
-        let rows = (self.first..self.end).filter(|k| !is_skipped(self.lines[*k])).count();
+        let rows = (self.first..self.end).filter(|k| !self.skips(self.lines[*k])).count();
         if (2..=FEW_ROWS).contains(&rows) && self.width >= MANY_COLUMNS && self.width > 4 * rows {
             return Ok(self.by_rows());
         }
@@ -78,11 +81,12 @@ impl Table<'_> {
         }
         let mut rows = self.rows(&header, end, wanted);
         if let Some(rest) = rest {
-            at_end = go_on(&mut rows, rest)?;
+            at_end = self.go_on(&mut rows, rest)?;
         }
         notes.extend(at_end);
         let mut channels = rows.channels(&header);
         preamble.set_clock(&mut channels);
+        time_columns::set_clocks(&mut channels);
         stamp_pairs::append(&mut channels);
         Ok(LogData {
             format: Format::Text,
@@ -90,6 +94,11 @@ impl Table<'_> {
             decimal_comma: self.decimal == Decimal::Comma,
             notes,
         })
+    }
+
+    /// Whether a line between its rows is none.
+    fn skips(&self, line: &str) -> bool {
+        is_skipped(line) || self.header.contains(&line.trim())
     }
 
     fn header(&self, row: Option<usize>) -> Result<Header, FormatError> {
@@ -107,6 +116,37 @@ impl Table<'_> {
         self.separator.cells(self.lines[line]).count()
     }
 
+    /// Reads its rows in the rest of a text; what is left out is noted.
+    fn go_on(&self, rows: &mut Rows, mut rest: Rest) -> Result<Option<String>, FormatError> {
+        // The first line that is no row, and those from it on.
+        let mut after: Option<(usize, String)> = None;
+        let mut lines_after = 0;
+        while let Some((row, line, ends)) = rest.next()? {
+            if self.skips(&line) {
+                continue;
+            }
+            if after.is_none() {
+                if !ends && rows.separator.cells(&line).count() < rows.width() {
+                    return Ok(Some(incomplete(row)));
+                }
+                if rows.take_if_row(&line, row) {
+                    if row % CHECKED_ROWS == 0 && rows.are_too_many() {
+                        return Err(FormatError::TooLarge { most: MOST_BYTES });
+                    }
+                    continue;
+                }
+                after = Some((row, line.into_owned()));
+            }
+            lines_after += 1;
+            if lines_after > LAST_LINES
+                && let Some((row, line)) = &after
+            {
+                return Err(more_follows(*row, line));
+            }
+        }
+        Ok(None)
+    }
+
     /// The columns of the rows before `end`.
     pub(crate) fn columns(&self, header: &Header, end: usize) -> Vec<Channel> {
         self.rows(header, end, Wanted::ALL).channels(header)
@@ -116,7 +156,7 @@ impl Table<'_> {
     fn rows(&self, header: &Header, end: usize, wanted: Wanted) -> Rows {
         let mut rows = Rows::new(self.separator, self.decimal, self.width, header, wanted);
         rows.expect(end - self.first);
-        for row in (self.first..end).filter(|row| !is_skipped(self.lines[*row])) {
+        for row in (self.first..end).filter(|row| !self.skips(self.lines[*row])) {
             rows.take(self.lines[row], row + 1);
         }
         rows
@@ -124,7 +164,7 @@ impl Table<'_> {
 
     /// One row for each signal, with its name in the first cell or without a name.
     fn by_rows(&self) -> LogData {
-        let rows = (self.first..self.end).filter(|k| !is_skipped(self.lines[*k]));
+        let rows = (self.first..self.end).filter(|k| !self.skips(self.lines[*k]));
         let mut channels = Vec::new();
         for row in rows {
             let cells: Vec<&str> = self.separator.cells(self.lines[row]).collect();
@@ -144,37 +184,6 @@ impl Table<'_> {
             notes: Vec::new(),
         }
     }
-}
-
-/// Reads the rows of a table in the rest of a text; what is left out is noted.
-fn go_on(rows: &mut Rows, mut rest: Rest) -> Result<Option<String>, FormatError> {
-    // The first line that is no row, and those from it on.
-    let mut after: Option<(usize, String)> = None;
-    let mut lines_after = 0;
-    while let Some((row, line, ends)) = rest.next()? {
-        if is_skipped(&line) {
-            continue;
-        }
-        if after.is_none() {
-            if !ends && rows.separator.cells(&line).count() < rows.width() {
-                return Ok(Some(incomplete(row)));
-            }
-            if rows.take_if_row(&line, row) {
-                if row % CHECKED_ROWS == 0 && rows.are_too_many() {
-                    return Err(FormatError::TooLarge { most: MOST_BYTES });
-                }
-                continue;
-            }
-            after = Some((row, line.into_owned()));
-        }
-        lines_after += 1;
-        if lines_after > LAST_LINES
-            && let Some((row, line)) = &after
-        {
-            return Err(more_follows(*row, line));
-        }
-    }
-    Ok(None)
 }
 
 fn incomplete(row: usize) -> String {

@@ -26,7 +26,23 @@ pub enum UnitSource {
 }
 
 /// Other spellings, in small letters, and the unit.
-const SPELLINGS: [(&str, &str); 32] = [
+const SPELLINGS: [(&str, &str); 48] = [
+    ("ncm", "cN*m"),
+    ("n*cm", "cN*m"),
+    ("n·cm", "cN*m"),
+    ("oz-in", "ozf*in"),
+    ("oz.in", "ozf*in"),
+    ("oz*in", "ozf*in"),
+    ("ozin", "ozf*in"),
+    ("kg-cm", "kgf*cm"),
+    ("kg.cm", "kgf*cm"),
+    ("kgf-cm", "kgf*cm"),
+    ("kgf.cm", "kgf*cm"),
+    ("turns", "turn"),
+    ("revs", "turn"),
+    ("revolution", "turn"),
+    ("revolutions", "turn"),
+    ("umdr", "turn"),
     ("grad", "deg"),
     ("min^-1", "rpm"),
     ("min-1", "rpm"),
@@ -61,8 +77,12 @@ const SPELLINGS: [(&str, &str); 32] = [
     ("meters", "m"),
 ];
 
+/// Units of which the file does not say which they are: turns or radians in a time, a degree (in German) or a 400th of a turn, a
+/// thousandth or a million.
+const AMBIGUOUS: [&str; 9] = ["1/s", "s^-1", "s-1", "s⁻¹", "grad", "Mrad", "Mm", "MA", "Ms"];
+
 /// Ends of names that state a unit, and the unit. Letters of ambiguous size, such as `m` and `s`, are not among them.
-const ENDS: [(&str, &str); 22] = [
+const ENDS: [(&str, &str); 25] = [
     ("rad_s", "rad/s"),
     ("rad_per_s", "rad/s"),
     ("radps", "rad/s"),
@@ -81,6 +101,9 @@ const ENDS: [(&str, &str); 22] = [
     ("mV", "mV"),
     ("Nm", "N*m"),
     ("mNm", "mN*m"),
+    ("Ncm", "cN*m"),
+    ("um", "um"),
+    ("µm", "um"),
     ("ms", "ms"),
     ("us", "us"),
     ("ns", "ns"),
@@ -101,9 +124,10 @@ pub(super) fn known_unit(text: &str) -> StatedUnit {
     let small = text.to_lowercase();
     let spelled = SPELLINGS.iter().find(|(spelling, _)| *spelling == small);
     let unit = spelled.map_or_else(|| text.to_owned(), |(_, unit)| (*unit).to_owned());
-    // Turns or radians: the file does not say.
-    let bare_rate = ["1/s", "s^-1", "s-1", "s⁻¹"].contains(&small.as_str());
-    let known = parse_any_unit(&unit).ok().filter(|_| !bare_rate);
+    if AMBIGUOUS.contains(&text) {
+        return StatedUnit { text: text.to_owned(), source: UnitSource::File, known: None };
+    }
+    let known = parse_any_unit(&unit).ok();
     StatedUnit { text: unit, source: UnitSource::File, known }
 }
 
@@ -149,5 +173,8 @@ mod tests {
         assert_eq!(known_unit("Grad").text, "deg");
         assert_eq!(known_unit("min^-1").text, "rpm");
         assert!(known_unit("1/s").known.is_none());
+        assert!(known_unit("grad").known.is_none() && known_unit("MA").known.is_none());
+        assert_eq!(known_unit("Ncm").text, "cN*m");
+        assert_eq!(known_unit("oz-in").known.unwrap().1, Dimension::TORQUE);
     }
 }

@@ -2,27 +2,49 @@
 
 use std::collections::HashSet;
 
-use lissom_formats::{Channel, LogData};
+use lissom_formats::LogData;
 
-/// The groups at the beginnings, if two of them have a channel of the same name: they may be runs.
+/// The groups that are runs perhaps: two of them have a channel of the same name.
 pub(crate) fn alike_groups(data: &LogData) -> Option<Vec<String>> {
+    let before = common_path(data);
     let mut names = HashSet::new();
-    let within =
-        |c: &'_ Channel| c.name.trim_start_matches('/').split_once('/').map(|(_, n)| n.to_owned());
-    let twice = data.channels.iter().filter_map(within).any(|name| !names.insert(name));
+    let within = |name: &str| within(name, &before).map(|(_, name)| name.to_owned());
+    let twice = paths(data).filter_map(within).any(|name| !names.insert(name));
     twice.then(|| groups(data))
 }
 
-/// The groups at the beginnings of the paths of channels.
+/// The groups at the beginnings of the paths of channels, behind what all have in common.
 pub(crate) fn groups(data: &LogData) -> Vec<String> {
+    let before = common_path(data);
     let mut found: Vec<String> = Vec::new();
-    for channel in &data.channels {
-        if let Some((group, _)) = channel.name.trim_start_matches('/').split_once('/')
-            && found.last().is_none_or(|last| last != group)
-            && !found.iter().any(|known| known == group)
-        {
+    for (group, _) in paths(data).filter_map(|name| within(name, &before)) {
+        if !found.iter().rev().any(|known| known == group) {
             found.push(group.to_owned());
         }
     }
     found
+}
+
+fn paths(data: &LogData) -> impl Iterator<Item = &str> {
+    data.channels.iter().map(|channel| channel.name.trim_start_matches('/'))
+}
+
+/// The group of a channel, with the path before it, and the name within the group.
+fn within<'a>(name: &'a str, before: &str) -> Option<(&'a str, &'a str)> {
+    let (group, inner) = name.strip_prefix(before)?.split_once('/')?;
+    Some((&name[..before.len() + group.len()], inner))
+}
+
+/// The path that all channels in groups have before their groups, as `measurements/`.
+fn common_path(data: &LogData) -> String {
+    let mut names = paths(data).filter(|name| name.contains('/'));
+    let Some(first) = names.next() else { return String::new() };
+    let others: Vec<&str> = names.collect();
+    let ends = first.match_indices('/').map(|(at, _)| at + 1);
+    // Behind it there must be groups.
+    let is_common = |end: &usize| {
+        others.iter().all(|name| name.strip_prefix(&first[..*end]).is_some_and(|n| n.contains('/')))
+            && first[*end..].contains('/')
+    };
+    ends.take_while(is_common).last().map_or_else(String::new, |end| first[..end].to_owned())
 }

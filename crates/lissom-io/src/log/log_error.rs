@@ -415,7 +415,7 @@ impl LogError {
             Self::Foreign { way_out, .. } => (*way_out).to_owned(),
             Self::Format { source, .. } => source.hint().to_owned(),
             Self::NoCommonTime { .. } => {
-                "choose channels that were recorded at the same time; single missing values are not filled in".to_owned()
+                "choose channels that were recorded at the same time".to_owned()
             }
             Self::Utf16 { .. } => "save the log as UTF-8".to_owned(),
             Self::LongRow { .. } => {

@@ -13,6 +13,9 @@ use super::log_error::LogError;
 use super::one_clock::{Series, on_one_clock};
 use crate::nearest::nearest;
 
+/// Rows in which a cell is missing are left out up to this share of all; with more a channel has stamps of its own.
+const MISSING_MOST: f64 = 0.02;
+
 /// Reads a log that the reader of plain text could not read, with the error `first` if it tried. That error is returned
 /// if the file is plain text after all.
 pub(super) fn read(
@@ -151,8 +154,12 @@ fn rows<'a>(
     let first = series.first()?.0;
     if series.iter().all(|(stamps, _)| std::ptr::eq(*stamps, first) || *stamps == first) {
         let all = std::iter::once(first).chain(series.iter().map(|(_, values)| *values));
-        if let Some(rows) = leading_cut(all.collect()) {
+        let all: Vec<&[f64]> = all.collect();
+        if let Some(rows) = leading_cut(all.clone()) {
             return Some(borrowed(rows));
+        }
+        if let Some(rows) = without_gaps(&all) {
+            return Some(rows.into_iter().map(Cow::Owned).collect());
         }
     }
     let series: Vec<Series> =
@@ -170,4 +177,15 @@ fn leading_cut(columns: Vec<&[f64]>) -> Option<Vec<&[f64]>> {
     let first = columns.iter().map(missing).max()?;
     let cut: Vec<&[f64]> = columns.into_iter().map(|c| &c[first..]).collect();
     cut.iter().all(|column| column.iter().all(|v| v.is_finite())).then_some(cut)
+}
+
+/// Without the rows in which a value is missing, if these are few: then they are gaps in time, as rows that were not logged
+/// are.
+fn without_gaps(columns: &[&[f64]]) -> Option<Vec<Vec<f64>>> {
+    let rows = columns.first()?.len();
+    let kept: Vec<usize> =
+        (0..rows).filter(|row| columns.iter().all(|column| column[*row].is_finite())).collect();
+    let few = rows as f64 * MISSING_MOST;
+    let kept_of = |column: &&[f64]| kept.iter().map(|row| column[*row]).collect();
+    ((rows - kept.len()) as f64 <= few).then(|| columns.iter().map(kept_of).collect())
 }
