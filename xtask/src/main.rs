@@ -8,6 +8,7 @@ mod book;
 mod deny;
 mod examples;
 mod external;
+mod fuzz;
 mod measured;
 mod release;
 mod step;
@@ -89,6 +90,12 @@ const RECIPES: &[Recipe] = &[
         about: "build a static Linux binary in target/release-static; show its size, list its licences",
         takes: Takes::Flags(&[]),
         run: static_binary,
+    },
+    Recipe {
+        name: "fuzz",
+        about: "run each fuzz target of the readers of logs for a short time",
+        takes: Takes::Arguments("seconds of each; default 5"),
+        run: fuzz,
     },
     Recipe {
         name: "schemas",
@@ -241,6 +248,11 @@ fn package(context: &Context) -> Result<(), Failure> {
 /// Builds the static binary.
 fn static_binary(context: &Context) -> Result<(), Failure> {
     release::static_binary(&context.root)
+}
+
+/// Runs the fuzz targets.
+fn fuzz(context: &Context) -> Result<(), Failure> {
+    fuzz::short_run(&context.root, &context.flags)
 }
 
 /// All checks that a change must pass, the fast ones first.

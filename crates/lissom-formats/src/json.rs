@@ -10,6 +10,7 @@ use serde_json::{Map, Value};
 use crate::format::Format;
 use crate::format_error::FormatError;
 use crate::log_data::{Channel, LogData};
+use crate::words::WordsBuilder;
 
 /// Most numbers of a list inside a record that become channels.
 const MOST_ITEMS: usize = 64;
@@ -55,7 +56,9 @@ fn gaps(channels: &[Channel]) -> Vec<String> {
         let more = if of.len() > first.len() { ", ..." } else { "" };
         first.join(", ") + more
     };
-    let has_gaps = |channel: &&Channel| channel.values.iter().any(|value| value.is_nan());
+    let has_gaps = |channel: &&Channel| {
+        channel.words.is_none() && channel.values.iter().any(|value| value.is_nan())
+    };
     let with_gaps: Vec<&Channel> = channels.iter().filter(has_gaps).collect();
     let mut notes = Vec::new();
     if !with_gaps.is_empty() {
@@ -149,7 +152,33 @@ fn of_records(path: &str, records: &[Value]) -> Vec<Channel> {
             channels[place].values[row] = value;
         });
     }
+    channels.extend(words(path, records));
     channels
+}
+
+/// Channels of the texts in records, which may name the run or the joint of each.
+fn words(path: &str, records: &[Value]) -> Vec<Channel> {
+    let mut places: HashMap<&str, usize> = HashMap::new();
+    let mut found: Vec<(&str, WordsBuilder, String)> = Vec::new();
+    for (row, record) in records.iter().enumerate() {
+        let Some(map) = record.as_object() else { continue };
+        for (key, value) in map {
+            let Some(word) = value.as_str().filter(|word| word.parse::<f64>().is_err()) else {
+                continue;
+            };
+            let place = *places.entry(key).or_insert_with(|| {
+                found.push((key, WordsBuilder::default(), word.chars().take(40).collect()));
+                found.len() - 1
+            });
+            found[place].1.push(row, word);
+        }
+    }
+    let channel = |(key, words, first): (&str, WordsBuilder, String)| {
+        let words = words.finish(records.len())?;
+        let channel = Channel::of(joined(path, key), vec![f64::NAN; records.len()]);
+        Some(Channel { words: Some(words), not_a_number: Some((0, first)), ..channel })
+    };
+    found.into_iter().filter_map(channel).collect()
 }
 
 /// Calls `take` for each number in a record.

@@ -2,7 +2,7 @@
 //!
 //! The file is read page by page.
 //!
-//! Time stamps and dates are seconds from the first one of their column; times of day are seconds from midnight. Nulls are
+//! Texts are words, such as the name of a run in each row. Time stamps and dates are seconds from the first one of their column; times of day are seconds from midnight. Nulls are
 //! NaN.
 
 use parquet::basic::{LogicalType, TimeUnit, Type};
@@ -21,6 +21,7 @@ use crate::log_data::{Channel, LogData};
 use crate::number::half;
 use crate::parquet_pages::Pages;
 use crate::source::Source;
+use crate::words::{Words, WordsBuilder};
 
 /// First bytes of a file.
 pub(crate) const PARQUET: &[u8] = b"PAR1";
@@ -58,7 +59,7 @@ pub(crate) fn read(source: &Source, wanted: Wanted) -> Result<LogData, FormatErr
                 }
             };
             let level = column.max_def_level();
-            let mut reader = Column { kind, level, first: None, values: Vec::new() };
+            let mut reader = Column::new(kind, level);
             let is_wanted = wanted.has_at(&name, Some(found.channels.len() + 1));
             let read = if is_wanted {
                 reader.read(&file, index, &mut found)
@@ -93,6 +94,7 @@ enum Kind {
     Decimal {
         scale: i32,
     },
+    Words,
 }
 
 /// A unit of time.
@@ -141,7 +143,8 @@ impl Kind {
             Some(LogicalType::Decimal(of)) => return Ok(Self::Decimal { scale: of.scale }),
             Some(LogicalType::Integer(of)) if !of.is_signed => return Ok(Self::Unsigned),
             Some(LogicalType::Float16) => return Ok(Self::Half),
-            Some(LogicalType::String | LogicalType::Enum | LogicalType::Json) => return Err(None),
+            Some(LogicalType::String | LogicalType::Enum) => return Ok(Self::Words),
+            Some(LogicalType::Json) => return Err(None),
             _ => {}
         }
         match column.physical_type() {
@@ -160,9 +163,14 @@ struct Column {
     /// The first time.
     first: Option<i64>,
     values: Vec<f64>,
+    words: WordsBuilder,
 }
 
 impl Column {
+    fn new(kind: Kind, level: i16) -> Self {
+        Self { kind, level, first: None, values: Vec::new(), words: WordsBuilder::default() }
+    }
+
     /// Reads the column of all groups of rows.
     fn read(
         &mut self,
@@ -187,7 +195,7 @@ impl Column {
         let group = file.get_row_group(0).map_err(damaged)?;
         let reader = group.get_column_reader(index).map_err(damaged)?;
         let rows = group.metadata().num_rows().clamp(0, 1) as usize;
-        let mut first = Self { values: Vec::new(), ..*self };
+        let mut first = Self::new(self.kind, self.level);
         first.group(reader, rows, &mut Collected::new())
     }
 
@@ -268,13 +276,17 @@ impl Column {
                 unit_s.seconds(value.wrapping_sub(first))
             }
             Kind::Decimal { scale } => value as f64 / 10_f64.powi(scale),
-            Kind::Number | Kind::Half => value as f64,
+            Kind::Number | Kind::Half | Kind::Words => value as f64,
         }
     }
 
-    /// A number of 16 bits, or a whole number with its highest byte first.
-    fn bytes(&self, bytes: &[u8]) -> f64 {
+    /// A number of 16 bits, a whole number with its highest byte first, or a word.
+    fn bytes(&mut self, bytes: &[u8]) -> f64 {
         match self.kind {
+            Kind::Words => {
+                self.words.push(self.values.len(), String::from_utf8_lossy(bytes).trim());
+                f64::NAN
+            }
             Kind::Half => bytes.first_chunk().map_or(f64::NAN, |b| half(u16::from_le_bytes(*b))),
             Kind::Decimal { scale } if (1..=16).contains(&bytes.len()) => {
                 let sign = if bytes.first().is_some_and(|byte| byte & 0x80 != 0) { -1 } else { 0 };
@@ -286,7 +298,11 @@ impl Column {
     }
 
     fn channel(self, name: String) -> Channel {
+        let rows = self.values.len();
         let mut channel = Channel::of(name, self.values);
+        channel.words = self.words.finish(rows);
+        let first = channel.words.as_ref().and_then(Words::first);
+        channel.not_a_number = first.map(|word| (0, word.to_owned()));
         if matches!(self.kind, Kind::Time { .. }) {
             channel.unit = Some("s".to_owned());
         }

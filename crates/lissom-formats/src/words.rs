@@ -22,6 +22,11 @@ impl Words {
         self.different.get(place).map(String::as_str)
     }
 
+    /// The first word.
+    pub fn first(&self) -> Option<&str> {
+        self.different.first().map(String::as_str)
+    }
+
     /// The words in some rows.
     pub(crate) fn of_rows(&self, rows: &[usize]) -> Self {
         let place = |row: &usize| self.rows.get(*row).copied().unwrap_or(0);

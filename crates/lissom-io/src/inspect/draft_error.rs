@@ -4,6 +4,7 @@ use thiserror::Error;
 
 use super::roles::Role;
 use super::row_labels::RowLabels;
+use crate::log::beside;
 use crate::units::UnitError;
 
 /// Why no campaign can be made of a log and what the user says.
@@ -210,20 +211,35 @@ impl DraftError {
                 Some("write COLUMN:UNIT, as in q:deg, or counts:rad,scale=0.001534".to_owned())
             }
             Self::Unit { source, .. } => source.hint(),
+            Self::NoChannel { column, names, .. }
+                if names.iter().filter(|name| *name == column).count() > 1 =>
+            {
+                let of_name = (1..).zip(names).filter(|(_, name)| *name == column);
+                let numbers: Vec<String> =
+                    of_name.map(|(k, _): (usize, _)| k.to_string()).collect();
+                Some(format!(
+                    "several channels have this name: give the number of one of them, {}",
+                    numbers.join(" or ")
+                ))
+            }
             Self::NoChannel { file, column, names }
                 if names.iter().filter(|n| n.rsplit('/').next() == Some(column)).count() > 1 =>
             {
+                let groups = of_group(names, column);
                 Some(format!(
-                    "channels of this name are in several groups: if these are runs, give the log as \"{file}::*\", or one of \
-                     them by its group"
+                    "channels of this name are in several groups: if these are runs, give the log as \"{file}::{groups}\", or \
+                     one of them by its group"
                 ))
             }
             Self::NoChannel { .. } => {
                 Some("give the name of a channel as in this list, or its number from 1".to_owned())
             }
-            Self::Several { file, names, .. } if are_in_groups(names) => Some(format!(
-                "if these are runs, give the log as \"{file}::*\", or one of them by its group"
-            )),
+            Self::Several { file, names, .. } if are_in_groups(names) => {
+                let groups = of_group(names, names[0].rsplit('/').next().unwrap_or_default());
+                Some(format!(
+                    "if these are runs, give the log as \"{file}::{groups}\", or one of them by its group"
+                ))
+            }
             Self::NoRole { role, .. } | Self::Several { role, .. } | Self::NoUnit { role, .. } => {
                 Some(format!("{}{}", with_right_units(self.option()), more(*role)))
             }
@@ -233,6 +249,12 @@ impl DraftError {
             }
         }
     }
+}
+
+/// The pattern of the groups that have a channel.
+fn of_group(names: &[String], channel: &str) -> String {
+    let group = names.iter().find_map(|name| name.trim_start_matches('/').strip_suffix(channel));
+    beside(group.unwrap_or_default().trim_end_matches('/'))
 }
 
 /// Whether the names are those of one channel in several groups.

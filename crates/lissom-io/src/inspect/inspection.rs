@@ -14,7 +14,7 @@ use super::roles::{Guess, Role, Roles, looks_like_time};
 use super::row_labels::RowLabels;
 use super::stated_unit::{StatedUnit, stated_unit};
 use crate::io_error::Error;
-use crate::log::{LogPath, alike_groups};
+use crate::log::{LogPath, alike_groups, all_groups};
 
 /// Share by which the factor of a rate may differ from that of the stated units.
 const UNITS_AGREE: f64 = 0.1;
@@ -63,10 +63,11 @@ pub fn inspect_with(path: &Path, options: &ReadOptions) -> Result<Inspection, Er
     }
     if let Some(groups) = alike_groups(&found.data) {
         found.notes.push(format!(
-            "channels of the same name are in the groups {}: if these are runs, give the log as \"{}::*\", or one of them as \
+            "channels of the same name are in the groups {}: if these are runs, give the log as \"{}::{}\", or one of them as \
              \"{}::{}\"",
             groups.join(", "),
             path.display(),
+            all_groups(&found.data),
             path.display(),
             groups[0]
         ));

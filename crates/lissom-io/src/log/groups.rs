@@ -13,6 +13,17 @@ pub(crate) fn alike_groups(data: &LogData) -> Option<Vec<String>> {
     twice.then(|| groups(data))
 }
 
+/// The pattern that all groups fit.
+pub(crate) fn all_groups(data: &LogData) -> String {
+    format!("{}*", common_path(data))
+}
+
+/// The pattern that a group and those beside it fit.
+pub(crate) fn beside(group: &str) -> String {
+    let before = group.rsplit_once('/').map_or(String::new(), |(before, _)| format!("{before}/"));
+    format!("{before}*")
+}
+
 /// The groups at the beginnings of the paths of channels, behind what all have in common.
 pub(crate) fn groups(data: &LogData) -> Vec<String> {
     let before = common_path(data);

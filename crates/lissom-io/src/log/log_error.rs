@@ -6,6 +6,7 @@ use std::io;
 use lissom_formats::FormatError;
 use thiserror::Error;
 
+use super::groups::beside;
 use super::log_columns::TimeBack;
 use crate::excerpt::excerpt;
 
@@ -446,7 +447,8 @@ impl LogError {
                     return Some(number);
                 };
                 format!(
-                    "give the group after the file, as in \"FILE::{first}\", or \"FILE::*\" if each group is a run; or {number}"
+                    "give the group after the file, as in \"FILE::{first}\", or \"FILE::{}\" if each group is a run; or {number}",
+                    beside(first)
                 )
             }
             Self::NoGroup { groups, .. } if groups.is_empty() => {

@@ -1,0 +1,43 @@
+//! A short run of every fuzz target: `cargo xtask fuzz [SECONDS]`. Longer runs are described in `fuzz/README.md`.
+
+use std::fs;
+use std::path::Path;
+
+use crate::step::{Failure, ask, cargo, run};
+
+/// Seconds of each target.
+const SECONDS: &str = "5";
+/// Limits of one input.
+const LIMITS: [&str; 3] = ["-timeout=5", "-rss_limit_mb=1024", "-max_len=65536"];
+
+/// Runs each target on its corpus and on changes of it, which are not kept.
+pub(crate) fn short_run(root: &Path, flags: &[String]) -> Result<(), Failure> {
+    let (installed, _) = ask(&mut cargo(root, &["fuzz", "--version"]))?;
+    if !installed {
+        return Err(Failure::Missing {
+            tool: "cargo-fuzz",
+            install: "cargo install cargo-fuzz --locked",
+        });
+    }
+    let seconds = flags.first().map_or(SECONDS, String::as_str);
+    let file = |path: &Path| {
+        let path = path.display().to_string();
+        move |source| Failure::File { path, source }
+    };
+    let corpora = root.join("fuzz/corpus");
+    let entries = fs::read_dir(&corpora).map_err(file(&corpora))?;
+    let mut targets: Vec<String> =
+        entries.flatten().map(|entry| entry.file_name().to_string_lossy().into_owned()).collect();
+    targets.sort();
+    for target in &targets {
+        let folder = root.join("target/fuzz-short").join(target);
+        fs::create_dir_all(&folder).map_err(file(&folder))?;
+        let corpus = corpora.join(target);
+        // A sanitizer would need nightly; the development profile is built in a fraction of the time.
+        let mut command = cargo(root, &["fuzz", "run", "-s", "none", "--dev", target.as_str()]);
+        command.arg(&folder).arg(&corpus).arg("--").args(LIMITS);
+        command.arg(format!("-max_total_time={seconds}")).arg("-verbosity=0");
+        run(&format!("fuzz {target}, {seconds} s"), &mut command)?;
+    }
+    Ok(())
+}
