@@ -274,18 +274,19 @@ fn columns_of_time_stamps_belong_to_the_columns_behind_them() {
     }
     let found = read(&text);
     let clocks: Vec<Clock> = found.channels.iter().map(|c| c.clock).collect();
-    use Clock::{Channel, Unstated};
-    assert_eq!(clocks, [Unstated, Channel(0), Unstated, Channel(2)]);
+    let (none, after) = (Clock::Unstated, Clock::Channel);
+    assert_eq!(clocks, [none, after(0), none, after(2)]);
     // Two clocks of the same rows side by side.
     let both = text.replace("Time I [ms];I [A]", "I [A];Time I [ms]");
-    assert!(read(&both).channels.iter().all(|c| c.clock == Unstated));
+    assert!(read(&both).channels.iter().all(|c| c.clock == none));
 }
 
 #[test]
 fn repeated_headers_and_remarks_are_left_out() {
     let header = "t [s];i [A];q [rad]\n";
     let rows = |from: usize| -> String {
-        (from..from + 120).map(|k| format!("0.{k:03};{k};{}\n", 2 * k)).collect()
+        let row = |k: usize| format!("0.{k:03};{k};{}\n", 2 * k);
+        (from..from + 120).map(row).collect::<Vec<_>>().concat()
     };
     let text = format!("{header}{}{header}{}", rows(0), rows(0));
     let found = read(&text);

@@ -4,10 +4,11 @@ use std::path::{Path, PathBuf};
 
 use lissom::identify::hold_shown;
 use lissom::record::Hold;
-use lissom_io::inspect::{CampaignDraft, Description, DraftError, Inspection, inspect_with};
+use lissom_io::inspect::{CampaignDraft, Description, DraftError, Inspection, Role, inspect_with};
 use lissom_io::{CampaignFile, read_campaign_text};
 
 use crate::shared::failure::Failure;
+use crate::shared::shell_word::shell_word;
 
 /// Name of the description in messages.
 const NAME: &str = "description of the log";
@@ -18,6 +19,16 @@ pub(crate) struct DescribedLogs {
     pub(crate) log: Inspection,
     /// The campaign made of it.
     pub(crate) draft: CampaignDraft,
+    /// A channel that is not used.
+    unused: Option<String>,
+}
+
+/// The option for a channel that is probably a point of the arm, if its unit is known.
+pub(crate) fn tip_option(log: &Inspection) -> Option<String> {
+    let tip = log.roles.of(Role::Tip)?;
+    let channel = &log.channels[tip.channel];
+    let unit = channel.unit.as_ref().filter(|unit| unit.known.is_some())?;
+    Some(format!("--tip {}", shell_word(&format!("{}:{}", channel.label(), unit.text))))
 }
 
 impl DescribedLogs {
@@ -29,7 +40,11 @@ impl DescribedLogs {
         for other in &logs[1..] {
             log.same_units(other, &said.text_options())?;
         }
-        let mut described = Self { log, draft };
+        let unused = tip_option(&log).filter(|_| said.tips.is_empty());
+        let unused = unused.map(|option| {
+            format!("a channel that is probably a point of the arm is not used: add {option}")
+        });
+        let mut described = Self { log, draft, unused };
         if let Some(hold) = described.hold_shown() {
             let said = Description { hold_shown: Some(hold), ..said.clone() };
             let draft = CampaignDraft::new(&described.log, logs, &said);
@@ -52,9 +67,9 @@ impl DescribedLogs {
         Some(("sampled".to_owned(), why))
     }
 
-    /// What does not agree in the first log.
+    /// What does not agree in the first log, and what of it is not used.
     pub(crate) fn notes(&self) -> impl Iterator<Item = &str> {
-        self.log.notes.iter().map(String::as_str)
+        self.log.notes.iter().chain(&self.unused).map(String::as_str)
     }
 
     /// Reads the logs.

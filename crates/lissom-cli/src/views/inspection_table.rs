@@ -10,6 +10,7 @@ use lissom_io::inspect::{
 use super::printer::{counted, line, table, wrapped};
 use crate::shared::digits::trimmed;
 use crate::shared::shell_word::shell_word;
+use crate::tasks::described_logs::tip_option;
 
 /// Significant digits of values.
 const DIGITS: usize = 4;
@@ -204,7 +205,10 @@ fn next(log: &Inspection) {
     };
     line("");
     match draft.text() {
-        Ok(_) => line(&format!("next: lissom identify {}", shell_word(&file))),
+        Ok(_) => {
+            let tip = tip_option(log).map_or_else(String::new, |option| format!(" {option}"));
+            line(&format!("next: lissom identify {}{tip}", shell_word(&file)));
+        }
         Err(missing) => {
             let text = missing.to_string();
             item(text.strip_prefix(&format!("{file}: ")).unwrap_or(&text));

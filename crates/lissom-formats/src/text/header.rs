@@ -3,6 +3,9 @@
 use super::cells::{Cell, Decimal, Separator};
 use crate::unit;
 
+/// Least number of columns of a table that may have a column without a name.
+const WIDE: usize = 4;
+
 /// Names of the columns, and their units.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub(crate) struct Header {
@@ -18,17 +21,20 @@ impl Header {
         let above = (0..first).rev().filter(|k| !lines[*k].trim().is_empty()).take(2);
         let rows: Vec<(usize, Vec<&str>)> =
             above.map(|k| (k, separator.cells(unmarked(lines[k])).collect())).collect();
+        // The last column of a wide table may have no name.
+        let unnamed = usize::from(width >= WIDE);
         // Where units are below them, names may be numbers: those of the channels of an oscilloscope.
         let full = |cells: &[&str], with_units: bool| {
             let filled = cells.iter().filter(|c| !c.is_empty()).count();
             let is_number = |c: &&str| matches!(Cell::of(c, Decimal::Point), Cell::Number(_));
             let numbers = cells.iter().filter(|c| is_number(c)).count();
             let are_names = if with_units { numbers < filled } else { numbers == 0 };
-            are_names && 2 * filled >= width && cells.len() >= width
+            are_names && 2 * filled >= width && cells.len() + unnamed >= width
         };
         let of = |at: usize, units: Option<&[&str]>| {
-            let (line, cells) = &rows[at];
-            Self::of(*line, &cells[..width], units.unwrap_or_default())
+            let (line, mut cells) = rows[at].clone();
+            cells.resize(width, "");
+            Self::of(line, &cells, units.unwrap_or_default())
         };
         match &rows[..] {
             [(_, units), (_, above)] if is_units(units, width) && full(above, true) => {

@@ -33,11 +33,11 @@ pub(super) fn set_clocks(channels: &mut [Channel]) {
         return;
     }
     let mut stamps = times[0];
-    for k in times[0]..channels.len() {
+    for (k, channel) in channels.iter_mut().enumerate().skip(times[0]) {
         if times.contains(&k) {
             stamps = k;
-        } else if channels[k].clock == Clock::Unstated {
-            channels[k].clock = Clock::Channel(stamps);
+        } else if channel.clock == Clock::Unstated {
+            channel.clock = Clock::Channel(stamps);
         }
     }
 }

@@ -8,6 +8,8 @@ const DISTINCT: usize = 8;
 const MOST_STEPS: f64 = 2e6;
 /// A difference may be off a multiple of the step by this share of the step.
 const OFF_MULTIPLE: f64 = 0.1;
+/// Samples before and after a jump in which an angle moves.
+const NEAR: usize = 3;
 /// A channel jumps by a turn if it changes by more than this share of its range, …
 const JUMP: f64 = 0.8;
 /// … where it usually changes by less than this share.
@@ -109,7 +111,14 @@ fn at_end(present: &[f64], end: f64) -> Option<f64> {
 
 fn wraps(present: &[f64], range: f64) -> usize {
     let mut changes: Vec<f64> = present.windows(2).map(|w| (w[1] - w[0]).abs()).collect();
-    let jumps = changes.iter().filter(|c| **c > JUMP * range).count();
+    // Before and after the jump of an angle it moves against the jump; a square wave rests.
+    let goes_on = |k: usize| {
+        let jump = present[k + 1] - present[k];
+        let before = present[k] - present[k.saturating_sub(NEAR)];
+        let after = present[(k + 1 + NEAR).min(present.len() - 1)] - present[k + 1];
+        before * jump < 0.0 && after * jump < 0.0
+    };
+    let jumps = (0..changes.len()).filter(|k| changes[*k] > JUMP * range && goes_on(*k)).count();
     if jumps == 0 || 20 * jumps > changes.len() {
         return 0;
     }
@@ -129,6 +138,12 @@ mod tests {
         assert!((facts.step.unwrap() - 0.087_890_625).abs() < 1e-9, "{facts:?}");
         assert_eq!(facts.bits(), Some(12));
         assert_eq!(facts.wraps, 7);
+    }
+
+    #[test]
+    fn a_square_wave_does_not_wrap() {
+        let square = |k: i32| if (k / 500) % 2 == 0 { 1.0 } else { -1.0 };
+        assert_eq!(ChannelFacts::of(&(0..4000).map(square).collect::<Vec<_>>()).wraps, 0);
     }
 
     #[test]

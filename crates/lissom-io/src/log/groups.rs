@@ -42,20 +42,35 @@ fn paths(data: &LogData) -> impl Iterator<Item = &str> {
 
 /// The group of a channel, with the path before it, and the name within the group.
 fn within<'a>(name: &'a str, before: &str) -> Option<(&'a str, &'a str)> {
-    let (group, inner) = name.strip_prefix(before)?.split_once('/')?;
-    Some((&name[..before.len() + group.len()], inner))
+    let rest = name.strip_prefix(before)?;
+    let at = slashes(rest).next()?;
+    Some((&name[..before.len() + at], &rest[at + 1..]))
+}
+
+/// Places of the slashes in a name; those of a unit in brackets do not count.
+fn slashes(name: &str) -> impl Iterator<Item = usize> {
+    let mut depth = 0_usize;
+    name.char_indices().filter_map(move |(at, c)| {
+        match c {
+            '(' | '[' => depth += 1,
+            ')' | ']' => depth = depth.saturating_sub(1),
+            _ => {}
+        }
+        (c == '/' && depth == 0).then_some(at)
+    })
 }
 
 /// The path that all channels in groups have before their groups, as `measurements/`.
 fn common_path(data: &LogData) -> String {
-    let mut names = paths(data).filter(|name| name.contains('/'));
+    let has_group = |name: &str| slashes(name).next().is_some();
+    let mut names = paths(data).filter(|name| has_group(name));
     let Some(first) = names.next() else { return String::new() };
     let others: Vec<&str> = names.collect();
-    let ends = first.match_indices('/').map(|(at, _)| at + 1);
+    let ends = slashes(first).map(|at| at + 1);
     // Behind it there must be groups.
     let is_common = |end: &usize| {
-        others.iter().all(|name| name.strip_prefix(&first[..*end]).is_some_and(|n| n.contains('/')))
-            && first[*end..].contains('/')
+        others.iter().all(|name| name.strip_prefix(&first[..*end]).is_some_and(has_group))
+            && has_group(&first[*end..])
     };
     ends.take_while(is_common).last().map_or_else(String::new, |end| first[..end].to_owned())
 }

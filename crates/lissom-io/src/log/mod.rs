@@ -34,7 +34,7 @@ mod plain_row;
 mod read_log;
 mod thinner;
 
-pub(crate) use groups::{alike_groups, all_groups};
+pub(crate) use groups::{alike_groups, all_groups, beside};
 pub use log_columns::{ColumnRef, Log, LogColumn, LogOptions, TimeBack};
 pub use log_error::LogError;
 pub(crate) use log_layout::{Delimiter, comment, is_header, number};

@@ -184,8 +184,10 @@ fn leading_cut(columns: Vec<&[f64]>) -> Option<Vec<&[f64]>> {
 fn without_gaps(columns: &[&[f64]]) -> Option<Vec<Vec<f64>>> {
     let rows = columns.first()?.len();
     let kept: Vec<usize> =
-        (0..rows).filter(|row| columns.iter().all(|column| column[*row].is_finite())).collect();
+        (0..rows).filter(|row| columns.iter().all(|column| !column[*row].is_nan())).collect();
     let few = rows as f64 * MISSING_MOST;
     let kept_of = |column: &&[f64]| kept.iter().map(|row| column[*row]).collect();
-    ((rows - kept.len()) as f64 <= few).then(|| columns.iter().map(kept_of).collect())
+    let are_numbers = columns.iter().all(|column| !column.iter().any(|value| value.is_infinite()));
+    ((rows - kept.len()) as f64 <= few && are_numbers)
+        .then(|| columns.iter().map(kept_of).collect())
 }

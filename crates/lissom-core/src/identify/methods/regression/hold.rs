@@ -21,7 +21,8 @@ pub struct HoldShown {
 ///
 /// A held command acts half a sample later than a measured one with the same samples. The motor's equation is solved for both,
 /// each with a delay of the command as a further term: the command is held if the delay is shorter then. `None` if the logs
-/// show no delay of a measured command (four standard errors), or do not give the motor's equation.
+/// show no delay of a measured command (four standard errors), do not show one of half a sample, or do not give the motor's
+/// equation.
 pub fn hold_shown(campaign: &Campaign) -> Option<HoldShown> {
     let delay = |hold: Hold| {
         let mut campaign = campaign.clone();
@@ -30,7 +31,8 @@ pub fn hold_shown(campaign: &Campaign) -> Option<HoldShown> {
     };
     let sample_s = campaign.runs.iter().map(Run::sample_time_s).fold(0.0, f64::max);
     let measured = delay(Hold::Measured).filter(|d| d.value > CLEARLY_PRESENT * d.std)?;
-    let held = delay(Hold::Sampled)?;
+    let is_known = 0.5 * sample_s > CLEARLY_PRESENT * measured.std;
+    let held = delay(Hold::Sampled).filter(|_| is_known)?;
     let hold = if held.value.abs() < measured.value.abs() { Hold::Sampled } else { Hold::Measured };
     Some(HoldShown {
         hold,
