@@ -204,7 +204,7 @@ impl CampaignError {
             Self::TorqueConstantUnit { .. } => "give it a unit: N*m/A or N*m/V, N/A or N/V",
             Self::NotForCommand { .. } => "remove it, or describe the channel that it belongs to",
             Self::NoRadius { .. } => {
-                "give the distance of the sensor from the joint, as in radius = \"0.45 m\""
+                "give the distance of the sensor from the joint and what it measures, as in quantity = \"deflection\", radius = \"0.45 m\""
             }
             Self::NeedlessRadius { .. } => "remove `radius`",
             Self::AboveNyquist { .. } => {

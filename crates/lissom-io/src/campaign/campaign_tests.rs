@@ -366,7 +366,9 @@ fn tips_that_do_not_fit_the_axis() {
     fails(
         &with("column = \"x\", unit = \"m\", quantity = \"deflection\""),
         "campaign.toml, line 6: `signals.tips[1]`: a length [m] at a tip of a rotary axis needs `radius`",
-        Some("give the distance of the sensor from the joint, as in radius = \"0.45 m\""),
+        Some(
+            "give the distance of the sensor from the joint and what it measures, as in quantity = \"deflection\", radius = \"0.45 m\"",
+        ),
     );
     fails(
         &with("column = \"x\", unit = \"rad\", radius = 1"),

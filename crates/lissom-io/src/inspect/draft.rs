@@ -19,7 +19,8 @@ use crate::log::LogPath;
 use crate::units::{Dimension, parse_any_unit};
 
 /// Why a command is taken as measured if nothing says so.
-const MEASURED: &str = "taken as measured by a sensor";
+const MEASURED: &str =
+    "nothing shows how it acts between its samples: taken as measured by a sensor";
 
 /// What a user says about logs. What is absent is taken from the log where it is unambiguous.
 #[derive(Debug, Clone, Default, PartialEq, Eq)]
