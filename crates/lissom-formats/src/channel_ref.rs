@@ -44,7 +44,7 @@ impl<'a> Wanted<'a> {
                 ChannelRef::Name(_) => {
                     names.iter().any(|name| Wanted::of(slice::from_ref(channel)).has(name))
                 }
-                ChannelRef::Number(_) => true,
+                ChannelRef::Number(number) => *number <= names.len(),
             };
             channels.iter().all(is_in)
         })

@@ -29,8 +29,8 @@
 //!
 //! Where a text does not show its header or its decimal sign, [`read_with`] takes them as [`ReadOptions`].
 //!
-//! [`read_channels`] reads some channels. A binary file is then read in pieces, and values of other channels take no memory;
-//! text, JSON, workbooks, universal files and compressed files are in memory as a whole.
+//! [`read_channels`] reads some channels. A text or a binary file is then read in pieces, and values of other channels take no
+//! memory; JSON, workbooks, universal files, text in UTF-16 and compressed binary files are in memory as a whole.
 //!
 //! Text may be UTF-8, UTF-16 or Windows-1252; `.gz` and `.zst` are expanded.
 

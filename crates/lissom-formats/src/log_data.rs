@@ -23,20 +23,27 @@ impl LogData {
     pub fn with_time_stamps(mut self) -> Self {
         let mut clocks: Vec<(f64, f64, usize)> = Vec::new();
         for channel in &self.channels {
-            if let Clock::Even { start_s, step_s } = channel.clock
-                && !channel.values.is_empty()
-            {
-                let clock = (start_s, step_s, channel.values.len());
-                if !clocks.contains(&clock) {
-                    clocks.push(clock);
+            if let Clock::Even { start_s, step_s } = channel.clock {
+                // A channel that is not read has no values: its clock counts only if no other channel has it.
+                let values = channel.values.len();
+                let same = |clock: &&mut (f64, f64, usize)| {
+                    (clock.0, clock.1) == (start_s, step_s)
+                        && (clock.2 == values || clock.2 == 0 || values == 0)
+                };
+                match clocks.iter_mut().find(same) {
+                    Some(clock) => clock.2 = clock.2.max(values),
+                    None => clocks.push((start_s, step_s, values)),
                 }
             }
         }
         let first = self.channels.len();
         for channel in &mut self.channels {
             if let Clock::Even { start_s, step_s } = channel.clock {
-                let clock = (start_s, step_s, channel.values.len());
-                let place = clocks.iter().position(|known| *known == clock);
+                let values = channel.values.len();
+                let same = |clock: &(f64, f64, usize)| {
+                    (clock.0, clock.1) == (start_s, step_s) && (clock.2 == values || values == 0)
+                };
+                let place = clocks.iter().position(same);
                 channel.clock = place.map_or(channel.clock, |k| Clock::Channel(first + k));
             }
         }
@@ -102,6 +109,34 @@ impl Channel {
     pub(crate) fn take_unit_of_name(&mut self) {
         if self.unit.is_none() {
             self.unit = unit::in_name(&self.name);
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn names_of_clocks_do_not_depend_on_what_is_read() {
+        let channel = |name: &str, step_s: f64, values: usize| Channel {
+            clock: Clock::Even { start_s: 0.0, step_s },
+            ..Channel::of(name, vec![0.0; values])
+        };
+        let log = |fast: usize, slow: usize| {
+            let channels = vec![channel("a", 0.1, fast), channel("b", 0.5, slow)];
+            let (format, notes) = (Format::Tdms, Vec::new());
+            LogData { format, channels, decimal_comma: false, notes }.with_time_stamps()
+        };
+        for (fast, slow) in [(10, 2), (0, 2), (10, 0)] {
+            let found = log(fast, slow);
+            assert_eq!(found.channels[2].name, "time[1]");
+            assert_eq!(found.channels[3].name, "time[2]");
+            assert_eq!(
+                (found.channels[2].values.len(), found.channels[3].values.len()),
+                (fast, slow)
+            );
+            assert_eq!(found.channels[1].clock, Clock::Channel(3));
         }
     }
 }

@@ -64,7 +64,8 @@ impl LogData {
     pub fn by_value(&self, channel: usize) -> Option<Vec<(String, Self)>> {
         let channel = self.channels.get(channel)?;
         let rows = channel.values.len();
-        let number = |row: usize| Some(channel.values[row]).filter(|value| value.is_finite());
+        // Zero has no sign.
+        let number = |row: usize| Some(channel.values[row] + 0.0).filter(|value| value.is_finite());
         let mut places: HashMap<Key, usize> = HashMap::new();
         let mut found: Vec<(String, Vec<usize>)> = Vec::new();
         for row in 0..rows {
@@ -108,12 +109,20 @@ impl LogData {
                 unit: whole.unit.clone(),
                 values: part.iter().map(|row| whole.values[*row]).collect(),
                 clock,
-                not_a_number: whole.not_a_number.clone(),
+                not_a_number: whole.not_a_number.clone().filter(|_| has_words(whole, part)),
                 words: whole.words.as_ref().map(|words| words.of_rows(part)),
             }
         };
         Self { channels: places.iter().map(channel).collect(), ..self.without_channels() }
     }
+}
+
+/// Whether a channel has cells that are no numbers in these rows.
+fn has_words(channel: &Channel, rows: &[usize]) -> bool {
+    rows.iter().any(|row| match &channel.words {
+        Some(words) => words.at(*row).is_some() && channel.values[*row].is_nan(),
+        None => channel.values[*row].is_nan(),
+    })
 }
 
 /// The value of a row in a channel.
@@ -224,5 +233,11 @@ mod tests {
         }
         log.channels[0].words = words.finish(5);
         assert_eq!(values(&log), [of("cw", &[0.0, 4.0]), of("ccw", &[1.0])]);
+        // What is no number in other rows does not count.
+        log.channels[1].values[1] = f64::NAN;
+        log.channels[1].not_a_number = Some((3, "n/c".to_owned()));
+        let parts = log.by_value(0).unwrap();
+        assert!(parts[0].1.channels[1].not_a_number.is_none());
+        assert!(parts[1].1.channels[1].not_a_number.is_some());
     }
 }

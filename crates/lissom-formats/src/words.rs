@@ -1,6 +1,7 @@
 //! Words in the rows of a channel, such as the name of its run in each row.
 
 use std::collections::HashMap;
+use std::sync::Arc;
 
 /// Most different words of a channel: with more it does not name runs.
 const MOST: usize = 10_000;
@@ -10,7 +11,7 @@ const LONGEST: usize = 100;
 /// Words in the rows of a channel.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Words {
-    different: Vec<String>,
+    different: Arc<Vec<String>>,
     /// Places in `different`, from 1; 0 for a blank.
     rows: Vec<u32>,
 }
@@ -30,21 +31,22 @@ impl Words {
     /// The words in some rows.
     pub(crate) fn of_rows(&self, rows: &[usize]) -> Self {
         let place = |row: &usize| self.rows.get(*row).copied().unwrap_or(0);
-        Self { different: self.different.clone(), rows: rows.iter().map(place).collect() }
+        Self { different: Arc::clone(&self.different), rows: rows.iter().map(place).collect() }
     }
 }
 
 /// Words while a column is read.
 #[derive(Debug, Default)]
 pub(crate) struct WordsBuilder {
-    words: Words,
+    different: Vec<String>,
+    rows: Vec<u32>,
     places: HashMap<String, u32>,
     has_too_many: bool,
 }
 
 impl WordsBuilder {
     pub(crate) fn is_empty(&self) -> bool {
-        self.words.rows.is_empty()
+        self.rows.is_empty()
     }
 
     /// Appends a word; the rows since the last one are blank.
@@ -55,7 +57,7 @@ impl WordsBuilder {
         let place = if let Some(place) = self.places.get(word) {
             *place
         } else if self.places.len() < MOST && word.chars().count() <= LONGEST {
-            self.words.different.push(word.to_owned());
+            self.different.push(word.to_owned());
             let place = self.places.len() as u32 + 1;
             self.places.insert(word.to_owned(), place);
             place
@@ -63,13 +65,14 @@ impl WordsBuilder {
             *self = Self { has_too_many: true, ..Self::default() };
             return;
         };
-        self.words.rows.resize(row, 0);
-        self.words.rows.push(place);
+        self.rows.resize(row, 0);
+        self.rows.push(place);
     }
 
     /// The words of so many rows, if there are any.
     pub(crate) fn finish(mut self, rows: usize) -> Option<Words> {
-        self.words.rows.resize(if self.is_empty() { 0 } else { rows }, 0);
-        Some(self.words).filter(|words| !words.rows.is_empty())
+        self.rows.resize(if self.is_empty() { 0 } else { rows }, 0);
+        let words = Words { different: Arc::new(self.different), rows: self.rows };
+        Some(words).filter(|words| !words.rows.is_empty())
     }
 }

@@ -35,6 +35,9 @@ fn plot(log: &Inspection, index: usize, channel: &InspectedChannel) -> Option<Li
     let values = &log.data.channels[index].values;
     let time = channel.time.or_else(|| log.guess(LogRole::Time).map(|guess| guess.channel));
     let time = time.filter(|k| *k != index && log.data.channels[*k].values.len() == values.len());
+    // Where the time starts again, runs would lie on each other.
+    let goes_on = |k: &usize| log.data.channels[*k].values.is_sorted();
+    let time = time.filter(goes_on);
     let stamps = time.map(|k| &log.data.channels[k].values[..]);
     let (x, y) = extremes(stamps, values)?;
     let with_unit = |c: &InspectedChannel| match &c.unit {

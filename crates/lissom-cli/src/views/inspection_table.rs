@@ -193,7 +193,7 @@ fn remarks(log: &Inspection, channel: &InspectedChannel) -> Vec<String> {
 fn next(log: &Inspection) {
     let file = log.file.display().to_string();
     if let Some(labels) = log.labels.as_ref().filter(|l| l.order == LabelOrder::InTurn) {
-        let column = log.channels[labels.channel].label();
+        let column = log.channels[labels.channel].asked();
         let rows = format!("{file}::{column}={}", labels.values[0]);
         line("");
         return line(&format!("next: lissom identify {}", shell_word(&rows)));

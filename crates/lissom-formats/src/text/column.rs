@@ -40,7 +40,7 @@ impl Column {
         let value = match Cell::of(cell, decimal) {
             Cell::Number(value) => {
                 if !self.words.is_empty() {
-                    self.words.push(self.values.len(), cell);
+                    self.words.push(self.values.len(), &value.to_string());
                 }
                 value
             }

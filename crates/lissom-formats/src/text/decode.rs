@@ -2,7 +2,7 @@
 
 use std::borrow::Cow;
 
-use encoding_rs::{Encoding, UTF_16BE, UTF_16LE, WINDOWS_1252};
+use encoding_rs::{Encoding, UTF_8, UTF_16BE, UTF_16LE, WINDOWS_1252};
 
 use crate::format_error::FormatError;
 
@@ -29,9 +29,13 @@ fn encoding(bytes: &[u8]) -> Option<(&'static Encoding, usize)> {
 
 /// Decodes UTF-8, UTF-16 (with or without a byte order mark) and, if it is neither, Windows-1252.
 pub(crate) fn decoded(bytes: &[u8]) -> Result<Cow<'_, str>, FormatError> {
-    if let Some((encoding, mark)) = encoding(bytes) {
-        return Ok(encoding.decode_without_bom_handling(&bytes[mark..]).0);
-    }
+    let bytes = match encoding(bytes) {
+        Some((encoding, mark)) if encoding == UTF_8 => &bytes[mark..],
+        Some((encoding, mark)) => {
+            return Ok(encoding.decode_without_bom_handling(&bytes[mark..]).0);
+        }
+        None => bytes,
+    };
     if let Some(at) = bytes.iter().position(|byte| is_control(*byte)) {
         let row = bytes[..at].split(|b| *b == b'\n').count();
         return Err(FormatError::NotText { row });

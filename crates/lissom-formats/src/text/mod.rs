@@ -50,8 +50,9 @@ pub(crate) fn read(
     reader.take(HEAD_BYTES).read_to_end(&mut bytes)?;
     if bytes.len() as u64 == HEAD_BYTES && !decode::is_utf16(&bytes) {
         reader.take(MOST_BYTES).read_until(b'\n', &mut bytes)?;
+        let has_more = bytes.last() == Some(&b'\n');
         let head = decoded(&bytes)?;
-        if let Some(table) = plain_table(&head, options) {
+        if let Some(table) = plain_table(&head, options).filter(|_| has_more) {
             let rest = Rest::new(reader, table.lines.len());
             return table.read(options.header_row, wanted, Some(rest));
         }
@@ -180,6 +181,17 @@ mod tests {
         let words = long(|k| if k == 30_000 { "30;off;1;2".to_owned() } else { row(k) });
         let words = both(&words, Wanted::ALL).unwrap();
         assert_eq!(words.channels[1].not_a_number, Some((30_003, "off".to_owned())));
+    }
+
+    #[test]
+    fn a_last_row_that_ends_the_beginning_of_a_text_is_incomplete() {
+        let plain = long(row);
+        let head = &plain[..HEAD_BYTES as usize];
+        // The row that contains the last byte of the beginning, cut behind it.
+        let start = head.rfind('\n').unwrap() + 1;
+        for end in [HEAD_BYTES as usize, (HEAD_BYTES as usize + 5).min(start + 30)] {
+            both(&plain[..end], Wanted::ALL).unwrap();
+        }
     }
 
     #[test]

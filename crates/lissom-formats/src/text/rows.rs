@@ -8,6 +8,7 @@ use super::time_columns::is_named_time;
 use crate::bytes::MOST_BYTES;
 use crate::channel_ref::Wanted;
 use crate::log_data::Channel;
+use crate::unit::is_time;
 
 /// The columns of a table.
 pub(super) struct Rows {
@@ -28,7 +29,10 @@ impl Rows {
     ) -> Self {
         let name = |k: usize| header.names.get(k).map_or("", String::as_str);
         let names: Vec<&str> = (0..width).map(name).collect();
-        let has_clocks = names.iter().filter(|name| is_named_time(name)).count() > 1;
+        let has_unit =
+            |k: usize| header.units.get(k).and_then(Option::as_deref).is_some_and(is_time);
+        let is_clock = |(k, name): &(usize, &&str)| is_named_time(name) || has_unit(*k);
+        let has_clocks = names.iter().enumerate().filter(is_clock).count() > 1;
         let wanted = if wanted.are_all_in(&names) && !has_clocks { wanted } else { Wanted::ALL };
         let is_wanted =
             names.iter().enumerate().map(|(k, name)| wanted.has_at(name, Some(k + 1))).collect();
@@ -58,10 +62,10 @@ impl Rows {
         }
     }
 
-    /// Whether its values take more memory than a file may.
-    pub(super) fn are_too_many(&self) -> bool {
-        let values = self.columns.iter().map(|column| column.values().len()).sum::<usize>();
-        (values * size_of::<f64>()) as u64 > 2 * MOST_BYTES
+    /// Whether the values of so many rows take more memory than a file may.
+    pub(super) fn are_too_many(&self, rows: usize) -> bool {
+        let columns = self.is_wanted.iter().filter(|wanted| **wanted).count();
+        rows.saturating_mul(columns).saturating_mul(size_of::<f64>()) as u64 > 2 * MOST_BYTES
     }
 
     /// Appends a line if it is a row of the table.

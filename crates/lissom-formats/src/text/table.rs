@@ -17,8 +17,6 @@ use crate::log_data::{Channel, LogData};
 
 /// A table with at most so many rows may have one row for each signal.
 const FEW_ROWS: usize = 20;
-/// Rows after which the memory is looked at.
-const CHECKED_ROWS: usize = 4096;
 /// Lines after the table that may contain something else.
 const LAST_LINES: usize = 4;
 
@@ -79,7 +77,7 @@ impl Table<'_> {
             notes
                 .push(format!("commas are ambiguous: numbers such as 1,234 are read as {read_as}"));
         }
-        let mut rows = self.rows(&header, end, wanted);
+        let mut rows = self.rows(&header, end, wanted)?;
         if let Some(rest) = rest {
             at_end = self.go_on(&mut rows, rest)?;
         }
@@ -130,7 +128,7 @@ impl Table<'_> {
                     return Ok(Some(incomplete(row)));
                 }
                 if rows.take_if_row(&line, row) {
-                    if row % CHECKED_ROWS == 0 && rows.are_too_many() {
+                    if rows.are_too_many(row - self.first) {
                         return Err(FormatError::TooLarge { most: MOST_BYTES });
                     }
                     continue;
@@ -148,18 +146,21 @@ impl Table<'_> {
     }
 
     /// The columns of the rows before `end`.
-    pub(crate) fn columns(&self, header: &Header, end: usize) -> Vec<Channel> {
-        self.rows(header, end, Wanted::ALL).channels(header)
+    pub(crate) fn columns(&self, header: &Header, end: usize) -> Option<Vec<Channel>> {
+        Some(self.rows(header, end, Wanted::ALL).ok()?.channels(header))
     }
 
     /// The rows before `end`.
-    fn rows(&self, header: &Header, end: usize, wanted: Wanted) -> Rows {
+    fn rows(&self, header: &Header, end: usize, wanted: Wanted) -> Result<Rows, FormatError> {
         let mut rows = Rows::new(self.separator, self.decimal, self.width, header, wanted);
+        if rows.are_too_many(end - self.first) {
+            return Err(FormatError::TooLarge { most: MOST_BYTES });
+        }
         rows.expect(end - self.first);
         for row in (self.first..end).filter(|row| !self.skips(self.lines[*row])) {
             rows.take(self.lines[row], row + 1);
         }
-        rows
+        Ok(rows)
     }
 
     /// One row for each signal, with its name in the first cell or without a name.

@@ -55,7 +55,11 @@ fn is_time(channel: &Channel) -> bool {
 /// Whether a line of a text names several columns of time stamps.
 pub(crate) fn names_several_times(text: &str) -> bool {
     text.lines().take(100).any(|line| {
-        let cells = line.split([',', ';', '\t']);
-        cells.filter(|cell| is_named_time(cell)).count() > 1
+        let cells = line.split([',', ';', '\t']).map(str::trim);
+        let has_unit = |cell: &str| {
+            unit::is_time(unit::bare(cell))
+                || unit::in_name(cell).as_deref().is_some_and(unit::is_time)
+        };
+        cells.filter(|cell| is_named_time(cell) || has_unit(cell)).count() > 1
     })
 }

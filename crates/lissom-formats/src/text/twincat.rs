@@ -30,7 +30,7 @@ pub(crate) fn read(table: &Table<'_>) -> Option<LogData> {
         let unit = units.get(k / 2).filter(|u| !u.is_empty()).map(|u| (*u).to_owned());
         Channel { name: name.to_owned(), unit, clock: Clock::Channel(k - 1), ..column }
     };
-    let columns = table.columns(&Header::default(), table.end);
+    let columns = table.columns(&Header::default(), table.end)?;
     if columns.len() != table.width {
         return None;
     }

@@ -19,8 +19,8 @@ use crate::log::LogPath;
 use crate::units::{Dimension, parse_any_unit};
 
 /// Why a command is taken as measured if nothing says so.
-const MEASURED: &str =
-    "nothing shows how it acts between its samples: taken as measured by a sensor";
+const MEASURED: &str = "nothing shows how it acts between its samples: taken as measured by a sensor; hold = \"sampled\" for a value \
+                        that the controller commands";
 
 /// What a user says about logs. What is absent is taken from the log where it is unambiguous.
 #[derive(Debug, Clone, Default, PartialEq, Eq)]
@@ -77,17 +77,19 @@ struct Line {
     taken: bool,
     /// What is missing.
     missing: Option<DraftError>,
+    /// Whether nothing says that its command is measured.
+    assumes_hold: bool,
 }
 
 impl Line {
     fn said(text: String) -> Self {
-        Self { text, why: String::new(), taken: false, missing: None }
+        Self { text, why: String::new(), taken: false, missing: None, assumes_hold: false }
     }
     fn taken(text: String, why: String) -> Self {
-        Self { text, why, taken: true, missing: None }
+        Self { why, taken: true, ..Self::said(text) }
     }
     fn missing(text: &str, error: DraftError) -> Self {
-        Self { text: text.to_owned(), why: String::new(), taken: true, missing: Some(error) }
+        Self { taken: true, missing: Some(error), ..Self::said(text.to_owned()) }
     }
 }
 
@@ -171,7 +173,7 @@ impl CampaignDraft {
 
     /// Whether the command is taken as measured because nothing says how it acts between its samples.
     pub fn assumes_hold(&self) -> bool {
-        self.lines.iter().any(|line| line.why.contains(MEASURED) && line.missing.is_none())
+        self.lines.iter().any(|line| line.assumes_hold && line.missing.is_none())
     }
 
     /// What is missing.
@@ -283,7 +285,7 @@ impl Signals<'_> {
                 "run = ?",
                 DraftError::RowsInTurn {
                     file: self.log.file.display().to_string(),
-                    column: channel.label(),
+                    column: channel.asked(),
                     values: labels.values.clone(),
                 },
             )),
@@ -317,6 +319,7 @@ impl Signals<'_> {
                 if line.missing.is_none()
                     && let Some(why) = why
                 {
+                    line.assumes_hold = why == MEASURED;
                     line.why =
                         if line.why.is_empty() { why } else { format!("{}; {why}", line.why) };
                     line.taken = true;
@@ -346,12 +349,7 @@ impl Signals<'_> {
         let drive = words.iter().find(|w| ["pwm", "duty"].contains(&w.as_str()));
         match commanded(&words).or(drive.map(String::as_str)) {
             Some(word) => ("sampled", Some(format!("taken as commanded: its name has \"{word}\""))),
-            None => (
-                "measured",
-                Some(format!(
-                    "{MEASURED}; hold = \"sampled\" for a value that the controller commands"
-                )),
-            ),
+            None => ("measured", Some(MEASURED.to_owned())),
         }
     }
 

@@ -253,8 +253,9 @@ impl DraftError {
 
 /// The pattern of the groups that have a channel.
 fn of_group(names: &[String], channel: &str) -> String {
-    let group = names.iter().find_map(|name| name.trim_start_matches('/').strip_suffix(channel));
-    beside(group.unwrap_or_default().trim_end_matches('/'))
+    let end = format!("/{channel}");
+    let group = names.iter().find_map(|name| name.trim_start_matches('/').strip_suffix(&end));
+    beside(group.unwrap_or_default())
 }
 
 /// Whether the names are those of one channel in several groups.

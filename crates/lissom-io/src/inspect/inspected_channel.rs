@@ -49,6 +49,11 @@ impl InspectedChannel {
         if self.name.is_empty() { format!("column {}", self.number) } else { self.name.clone() }
     }
 
+    /// Its name, or its number if it has none: what can be asked for.
+    pub fn asked(&self) -> String {
+        if self.name.is_empty() { self.number.to_string() } else { self.name.clone() }
+    }
+
     /// Dimension of its unit, if it is known.
     pub fn dimension(&self) -> Option<Dimension> {
         self.unit.as_ref()?.known.map(|(_, dimension)| dimension)

@@ -95,7 +95,7 @@ fn of_data(path: &Path, data: LogData) -> Inspection {
     let mut notes = data.notes.clone();
     notes.extend(contradictions(&channels, clock.as_ref(), time));
     let file = path.display().to_string();
-    notes.extend(labels.iter().map(|found| found.note(&channels[found.channel].label(), &file)));
+    notes.extend(labels.iter().map(|found| found.note(&channels[found.channel].asked(), &file)));
     Inspection {
         file: path.to_owned(),
         format: data.format,

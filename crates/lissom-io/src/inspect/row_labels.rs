@@ -78,7 +78,7 @@ impl RowLabels {
             values.iter().take(5).map(|value| format!("\"{value}\"")).collect();
         let more = if values.len() > first.len() { ", ..." } else { "" };
         format!(
-            "the rows are in turn of {}{more} ({name}): give those of one as \"{file}::{name}={}\"",
+            "column {name} alternates between {}{more}: each row belongs to one of them. Select one, as in \"{file}::{name}={}\"",
             first.join(", "),
             values.first().map_or("", String::as_str)
         )

@@ -106,7 +106,9 @@ fn rows_with(
     column: &str,
     value: &str,
 ) -> Result<Vec<(String, LogData)>, LogError> {
-    let channel = place(file, &ColumnRef::Name(column.to_owned()), data)?;
+    let named = place(file, &ColumnRef::Name(column.to_owned()), data);
+    let numbered = column.parse().ok().map(|number| place(file, &ColumnRef::Number(number), data));
+    let channel = named.or_else(|error| numbered.unwrap_or(Err(error)))?;
     let Some(parts) = data.by_value(channel) else {
         return Err(LogError::RunNumbers { file: file.to_owned(), column: column.to_owned() });
     };

@@ -102,6 +102,12 @@ const REPAIR: Option<&str> =
 const CHECK: Option<&str> = Some("check that the recording ran and that this is the right file");
 
 #[test]
+fn a_row_that_is_a_comment_is_left_out() {
+    let log = read("n,t,x\n1,0,1\n#2,1,99\n % 3,2,99\n4,3,2\n", "t", "x").unwrap();
+    assert_eq!((log.time.unwrap(), log.columns), (vec![0.0, 3.0], vec![vec![1.0, 2.0]]));
+}
+
+#[test]
 fn bad_cells_are_named_with_row_and_column() {
     fails(
         read("t,x\n0,1\n\n1,broken\n", "t", "x"),

@@ -77,10 +77,11 @@ pub(super) fn read_rows(
     if let Some(first) = head.first {
         body.take(&first, first_row)?;
     }
+    let before = rows.row;
     let first = rows.take_plain(&mut body)?;
     if let (Some(bytes), 1..) = (bytes, first) {
         // About as many rows in the rest of the file.
-        body.expect(rows.row * (bytes as usize).div_ceil(first));
+        body.expect((rows.row - before) * (bytes as usize).div_ceil(first));
     }
     loop {
         rows.take_plain(&mut body)?;

@@ -52,6 +52,9 @@ impl PlainRow {
             Delimiter::Char(delimiter) => delimiter as u8,
             Delimiter::Blanks => b' ',
         };
+        if matches!(text.get(blanks(text)), Some(b'#' | b'%')) {
+            return None;
+        }
         let (mut at, mut decimals) = (0, None);
         for (index, place) in self.places.iter().enumerate() {
             at += blanks(&text[at..]);

@@ -259,10 +259,13 @@ fn plain_cells(path: &Path) -> Result<Cells, ResponseError> {
 /// The cells of a file with a preamble or of another format; `None` if it has no frequency response.
 fn other_cells(path: &Path) -> Option<Cells> {
     let data = lissom_formats::read(path).ok()?;
+    let has_unit = |name: &str, unit: &str| {
+        let name = name.trim_end_matches([']', ')', ' ']).to_lowercase();
+        let before = name.strip_suffix(&unit.to_lowercase());
+        before.is_some_and(|name| !name.ends_with(char::is_alphanumeric))
+    };
     let with_unit = |channel: &Channel| match &channel.unit {
-        Some(unit) if !channel.name.to_lowercase().contains(&unit.to_lowercase()) => {
-            format!("{} [{unit}]", channel.name)
-        }
+        Some(unit) if !has_unit(&channel.name, unit) => format!("{} [{unit}]", channel.name),
         _ => channel.name.clone(),
     };
     let names: Vec<String> = data.channels.iter().map(with_unit).collect();

@@ -6,6 +6,9 @@ use crate::identify::prepare::prepared::Prepared;
 use crate::identify::thresholds::CLEARLY_PRESENT;
 use crate::record::{Campaign, Hold, Run};
 
+/// Largest delay that may be left of a command that is taken as held, in samples.
+const LEFT_MOST: f64 = 0.4;
+
 /// What the motion shows about a command.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct HoldShown {
@@ -20,20 +23,22 @@ pub struct HoldShown {
 /// Finds whether the command of a campaign is held until the next sample or measured by a sensor.
 ///
 /// A held command acts half a sample later than a measured one with the same samples. The motor's equation is solved for both,
-/// each with a delay of the command as a further term: the command is held if the delay is shorter then. `None` if the logs
-/// show no delay of a measured command (four standard errors), do not show one of half a sample, or do not give the motor's
-/// equation.
+/// each with a delay of the command as a further term: the command is held if this leaves less than 0.4 samples of delay, and
+/// less than for a measured one. `None` if the logs show no delay of a measured command (four standard errors), would not show
+/// one of half a sample, or do not give the motor's equation.
 pub fn hold_shown(campaign: &Campaign) -> Option<HoldShown> {
     let delay = |hold: Hold| {
         let mut campaign = campaign.clone();
         campaign.channels.command.hold = hold;
         motor_regression(&Prepared::of(&campaign), &Options::default())?.delay
     };
-    let sample_s = campaign.runs.iter().map(Run::sample_time_s).fold(0.0, f64::max);
+    let sample_s = campaign.runs.iter().map(Run::sample_time_s).fold(f64::INFINITY, f64::min);
     let measured = delay(Hold::Measured).filter(|d| d.value > CLEARLY_PRESENT * d.std)?;
     let is_known = 0.5 * sample_s > CLEARLY_PRESENT * measured.std;
     let held = delay(Hold::Sampled).filter(|_| is_known)?;
-    let hold = if held.value.abs() < measured.value.abs() { Hold::Sampled } else { Hold::Measured };
+    // A longer delay has another cause.
+    let explains = held.value.abs() < measured.value.abs().min(LEFT_MOST * sample_s);
+    let hold = if explains { Hold::Sampled } else { Hold::Measured };
     Some(HoldShown {
         hold,
         delay_samples: measured.value / sample_s,
