@@ -51,8 +51,9 @@ def contents(rng, count):
         name = f"decimal_{digits}"
         yield name, pa.array(exact, pa.decimal128(digits, 3)), [expected.channel(name, [float(v) for v in exact])]
     words = pa.array([f"word {k % 5}" for k in range(count)])
-    yield "words", words, []
-    yield "kinds", words.dictionary_encode(), []
+    # Words are no numbers.
+    yield "words", words, [expected.channel("words", [np.nan] * count)]
+    yield "kinds", words.dictionary_encode(), [expected.channel("kinds", [np.nan] * count)]
     inner, outer = rng.normal(size=count), [k % 4 for k in range(count)]
     parts = [None if k % 5 == 0 else {"x": None if k % 7 == 0 else inner[k], "sub": {"n": outer[k]}} for k in range(count)]
     yield "part", pa.array(parts, pa.struct([("x", pa.float64()), ("sub", pa.struct([("n", pa.int32())]))])), [
