@@ -6,7 +6,7 @@ use crate::log_data::Channel;
 use crate::number::Number;
 use crate::stream::Input;
 
-pub(crate) const MANY_CHANNELS: LeftOut = LeftOut {
+const MANY_CHANNELS: LeftOut = LeftOut {
     what: "arrays with more than 4096 channels",
     way_out: "save the rows or columns that are needed as an array of their own",
 };

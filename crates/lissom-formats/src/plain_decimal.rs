@@ -24,7 +24,7 @@ const TENS: [f64; MOST_DIGITS + 1] = [
 
 impl PlainDecimal {
     /// A text that is such a number, with this decimal sign.
-    pub(crate) fn value_of(text: &str, point: u8) -> Option<f64> {
+    pub fn value_of(text: &str, point: u8) -> Option<f64> {
         Self::leading(text.as_bytes(), point)
             .filter(|of| of.length == text.len())
             .map(|of| of.value)

@@ -18,7 +18,7 @@ use hdf5_pure::{Dataset, Datatype, Group, Layout};
 use crate::array::{Array, Axis, axes};
 use crate::channel_ref::Wanted;
 use crate::collected::{Collected, LeftOut};
-use crate::columns::{Columns, MANY_CHANNELS};
+use crate::columns::Columns;
 use crate::format::Format;
 use crate::format_error::FormatError;
 use crate::guard::guarded;
@@ -263,9 +263,6 @@ impl Fields {
         found: &mut Collected,
     ) -> Result<(), FormatError> {
         let columns = array.columns(path, part, Some(self.number), self.bytes, found)?;
-        if columns.has_too_many {
-            found.leave_out(path, &MANY_CHANNELS);
-        }
         self.number += columns.all.len();
         self.all.push((path.to_owned(), columns));
         Ok(())

@@ -10,7 +10,7 @@ use array_type::{ArrayType, Kind, OBJECTS};
 use crate::array::{Array, Axis, axes, items};
 use crate::channel_ref::Wanted;
 use crate::collected::Collected;
-use crate::columns::{Columns, MANY_CHANNELS, read_values};
+use crate::columns::{Columns, read_values};
 use crate::cursor::Cursor;
 use crate::format::Format;
 use crate::format_error::FormatError;
@@ -183,9 +183,6 @@ impl Fields {
         found: &mut Collected,
     ) -> Result<(), FormatError> {
         let columns = array.columns(name, part, Some(self.number), self.bytes, found)?;
-        if columns.has_too_many {
-            found.leave_out(name, &MANY_CHANNELS);
-        }
         self.number += columns.all.len();
         self.all.push(Field { path: name.to_owned(), columns, unit_s });
         Ok(())

@@ -114,7 +114,7 @@ impl Table<'_> {
         self.separator.cells(self.lines[line]).count()
     }
 
-    /// Reads its rows in the rest of a text; what is left out is noted.
+    /// Reads its further rows, and gives a note about an incomplete last one.
     fn go_on(&self, rows: &mut Rows, mut rest: Rest) -> Result<Option<String>, FormatError> {
         // The first line that is no row, and those from it on.
         let mut after: Option<(usize, String)> = None;

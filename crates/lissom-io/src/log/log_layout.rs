@@ -96,14 +96,7 @@ pub(crate) fn number(cell: &str, decimal_comma: bool) -> Option<f64> {
         }
         return cell.replacen(',', ".", 1).parse().ok();
     }
-    plain_decimal(cell.as_bytes()).or_else(|| cell.parse().ok())
-}
-
-/// Parses a cell that is exactly a [`PlainDecimal`].
-fn plain_decimal(cell: &[u8]) -> Option<f64> {
-    PlainDecimal::leading(cell, b'.')
-        .filter(|found| found.length == cell.len())
-        .map(|found| found.value)
+    PlainDecimal::value_of(cell, b'.').or_else(|| cell.parse().ok())
 }
 
 /// Whether most cells of the row are not numbers.

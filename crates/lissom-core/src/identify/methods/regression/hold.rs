@@ -1,13 +1,11 @@
 //! Whether a command is held between its samples or measured by a sensor, from the delay with which it acts.
 
 use crate::identify::methods::regression::motor::motor_regression;
+use crate::identify::methods::regression::thresholds::HELD_DELAY_MOST;
 use crate::identify::options::Options;
 use crate::identify::prepare::prepared::Prepared;
 use crate::identify::thresholds::CLEARLY_PRESENT;
 use crate::record::{Campaign, Hold, Run};
-
-/// Largest delay that may be left of a command that is taken as held, in samples.
-const LEFT_MOST: f64 = 0.4;
 
 /// What the motion shows about a command.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -37,7 +35,7 @@ pub fn hold_shown(campaign: &Campaign) -> Option<HoldShown> {
     let is_known = 0.5 * sample_s > CLEARLY_PRESENT * measured.std;
     let held = delay(Hold::Sampled).filter(|_| is_known)?;
     // A longer delay has another cause.
-    let explains = held.value.abs() < measured.value.abs().min(LEFT_MOST * sample_s);
+    let explains = held.value.abs() < measured.value.abs().min(HELD_DELAY_MOST * sample_s);
     let hold = if explains { Hold::Sampled } else { Hold::Measured };
     Some(HoldShown {
         hold,

@@ -3,6 +3,7 @@
 
 mod beam;
 mod cluster_covariance;
+mod extra_delay;
 mod fitted;
 mod hidden_mode;
 mod hold;

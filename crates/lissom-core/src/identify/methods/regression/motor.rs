@@ -7,6 +7,7 @@ use crate::identify::estimate::Estimate;
 use crate::identify::friction_estimates::Friction;
 use crate::identify::gravity_estimate::Gravity;
 use crate::identify::methods::regression::cluster_covariance::larger;
+use crate::identify::methods::regression::extra_delay::{changes_by_delay, extra_delay};
 use crate::identify::methods::regression::fitted::Fitted;
 use crate::identify::methods::regression::hidden_mode::{HiddenMode, shown_mode};
 use crate::identify::methods::regression::lag::{AngleLag, angle_lag};
@@ -19,12 +20,11 @@ use crate::identify::methods::regression::motor_columns::{
     DRY, MotorColumns, PLACE_COULOMB, PLACE_INERTIA, PLACE_OFFSET, PLACE_VISCOUS, VISCOUS,
 };
 use crate::identify::methods::regression::motor_rows::MotorRows;
-use crate::identify::methods::regression::normal::{Cluster, Solution, Term, solve};
+use crate::identify::methods::regression::normal::{Cluster, Solution, Term};
 use crate::identify::methods::regression::scan::{Candidate, RATIO, Scan, change};
 use crate::identify::methods::regression::sums_by_length::SumsByLength;
 use crate::identify::methods::regression::thresholds::{
     FEW_PHASES, GRAVITY_CORRELATION, GRAVITY_KNOWN, LONGER_WINDOW, USUAL_VARIATION,
-    WINDOW_SYSTEMATIC,
 };
 use crate::identify::options::Options;
 use crate::identify::prepare::prepared::Prepared;
@@ -79,7 +79,7 @@ pub struct MotorRegression {
     pub left: LeftTorque,
     /// Lag of the angle behind the command that the estimates take into account.
     pub lag: Option<AngleLag>,
-    /// Delay with which the command acts beside what the equation has \[s\], with the channels as they are logged; `None` if the
+    /// Delay of the command in addition to the terms of the equation \[s\], with the channels as they are logged; `None` if the
     /// logs do not show it.
     pub delay: Option<Estimate>,
     /// Share by which inertia is underestimated if the residual torque is not noise but a real torque that accelerates
@@ -348,7 +348,7 @@ fn on_slip_phases(
         mode: shown.map(|mode| mode.report(Moved::between(&rigid_solution, solution))),
         left,
         lag,
-        delay: delay_beside(&clusters, &terms, columns),
+        delay: extra_delay(&clusters, &terms, columns),
         inertia_short_by,
         left_out,
         beside_others,
@@ -482,30 +482,4 @@ fn by_direction(
 /// Whether each run turns one way.
 fn turn_one_way(clusters: &[Cluster]) -> bool {
     clusters.windows(2).all(|pair| pair[0].run != pair[1].run || pair[0].sign * pair[1].sign > 0.0)
-}
-
-/// By how much a standard error of a delay of the command moves each term: the delay is estimated, too.
-fn changes_by_delay(clusters: &[Cluster], terms: &[Term], columns: &MotorColumns) -> Vec<f64> {
-    let Some(solution) = with_delay(clusters, terms, columns) else {
-        return vec![0.0; terms.len()];
-    };
-    let last = terms.len();
-    let std = solution.covariance[(last, last)].max(f64::MIN_POSITIVE).sqrt();
-    (0..last).map(|i| solution.covariance[(i, last)] / std / WINDOW_SYSTEMATIC).collect()
-}
-
-/// The solution with a delay of the command as the last term.
-fn with_delay(clusters: &[Cluster], terms: &[Term], columns: &MotorColumns) -> Option<Solution> {
-    let delay = Term::Plain(columns.count() + MissingKind::Delay.column());
-    let with: Vec<Term> = terms.iter().copied().chain([delay]).collect();
-    solve(clusters, &with)
-}
-
-/// A delay of the command \[s\] beside the other terms.
-fn delay_beside(clusters: &[Cluster], terms: &[Term], columns: &MotorColumns) -> Option<Estimate> {
-    let solution = with_delay(clusters, terms, columns)?;
-    let last = terms.len();
-    let std = solution.covariance[(last, last)].max(0.0).sqrt();
-    // The column is the rate of the torque, with which the torque of an earlier time is made.
-    (!solution.inseparable[last]).then(|| Estimate { value: -solution.value[last], std })
 }

@@ -47,6 +47,9 @@ thresholds! {
         /// The angle lags behind the command if the residual with the lag is less than this share
         /// of the residual without it. The estimates are then those with the lag.
         LAG_EXPLAINS: f64 = 1.0 / 3.0, "1", Convention;
+        /// If nobody states whether a command is held, it is taken as held only if it then acts
+        /// later by no more than this share of a sample: a longer delay has another cause.
+        HELD_DELAY_MOST: f64 = 0.4, "samples", Convention;
         /// A lag of the angle is a filter and not a delay, or a delay and not a filter, if the
         /// residual with the one is less than this share of the residual with the other.
         LAG_SHAPE_TOLD: f64 = 0.8, "1", Convention;
