@@ -257,6 +257,23 @@ fn inspect_and_init() {
 }
 
 #[test]
+fn inspect_shows_the_logs_that_can_be_read() {
+    let (folder, rows) = simulated();
+    let row = |r: &[f64; 3]| format!("{},{},{}", r[0], r[1], r[2]);
+    let text =
+        format!("made by a drive\nunits,are,below\nt [s],i [A],q [rad]\n{}", lines(&rows, row));
+    std::fs::write(folder.path().join("log.csv"), text).unwrap();
+    let asked = ["inspect", "missing.csv", "log.csv", "--header-row", "3"];
+    let (code, shown, error) = lissom(folder.path(), &asked);
+    assert_eq!(code, Some(1));
+    assert!(shown.contains("log.csv: delimited text, 3 channels"), "{shown}");
+    assert!(error.contains("missing.csv: cannot be opened"), "{error}");
+    let (code, shown, _) = lissom(folder.path(), &[&asked[..], &["--json", "found.json"]].concat());
+    assert_eq!((code, shown.as_str()), (Some(1), ""));
+    assert!(!folder.path().join("found.json").exists());
+}
+
+#[test]
 fn a_log_is_checked_against_limits() {
     let (folder, rows) = simulated();
     let at = folder.path();

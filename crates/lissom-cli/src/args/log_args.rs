@@ -78,7 +78,8 @@ fn choice(text: &str) -> Result<Choice, String> {
     })
 }
 
-fn row(text: &str) -> Result<usize, String> {
+/// A row of a text, counted from 1.
+pub(super) fn row(text: &str) -> Result<usize, String> {
     let number = text.parse::<usize>().ok().filter(|row| *row > 0);
     number.ok_or_else(|| "rows are counted from 1".to_owned())
 }

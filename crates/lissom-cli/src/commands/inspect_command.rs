@@ -3,7 +3,7 @@
 use std::path::Path;
 use std::process::ExitCode;
 
-use lissom_io::inspect::{InspectionFile, inspect};
+use lissom_io::inspect::{InspectionFile, TextOptions, inspect_with};
 use lissom_io::write::{self, Batch};
 
 use crate::args::inspect_args::InspectArgs;
@@ -18,7 +18,20 @@ pub(crate) fn run(args: &InspectArgs) -> Result<ExitCode, Failure> {
     output_guard::guard(json_file, None)?;
     let inputs: Vec<&Path> = args.logs.iter().map(AsRef::as_ref).collect();
     output_guard::guard_inputs(json_file, &inputs)?;
-    let found = args.logs.iter().map(|log| inspect(log)).collect::<Result<Vec<_>, _>>()?;
+    let options = TextOptions {
+        header_row: args.header_row,
+        skip_rows: args.skip_rows,
+        ..TextOptions::default()
+    };
+    let (mut found, mut failures) = (Vec::new(), Vec::new());
+    for log in &args.logs {
+        match inspect_with(log, &options) {
+            Ok(inspection) => found.push(inspection),
+            // Files are written only if all logs can be read; on the terminal one log does not hide the others.
+            Err(error) if json.is_some() || args.plots.is_some() => return Err(error.into()),
+            Err(error) => failures.push(Failure::from(error)),
+        }
+    }
     let content = InspectionFile::of(&found);
     let mut batch = Batch::new();
     if let Some(path) = json_file {
@@ -40,5 +53,6 @@ pub(crate) fn run(args: &InspectArgs) -> Result<ExitCode, Failure> {
         }
         inspection_table::print(log);
     }
-    Ok(ExitCode::SUCCESS)
+    failures.iter().for_each(printer::failure);
+    Ok(if failures.is_empty() { ExitCode::SUCCESS } else { ExitCode::FAILURE })
 }

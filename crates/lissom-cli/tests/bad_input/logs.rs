@@ -6,7 +6,7 @@ use crate::bench::{Bench, Row, csv, good, motion};
 fn the_log_is_missing() {
     Bench::replacing("run.csv", "run-1.csv").refuses(
         "error: run-1.csv: cannot be opened: No such file or directory (os error 2)\n\
-         hint: check the name: a path starts from the folder of campaign.toml",
+         hint: check the name: a path in a campaign.toml starts from the folder of that file",
     );
 }
 

@@ -398,7 +398,7 @@ fn logs_that_do_not_fit_their_campaign() {
         PLAIN,
         &[],
         "a.csv: cannot be opened: No such file or directory (os error 2)",
-        Some("check the name: a path starts from the folder of campaign.toml"),
+        Some("check the name: a path in a campaign.toml starts from the folder of that file"),
     );
     fails_on(
         PLAIN,

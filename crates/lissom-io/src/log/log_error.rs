@@ -403,7 +403,7 @@ impl LogError {
     pub fn hint(&self) -> Option<String> {
         Some(match self {
             Self::Open { source, .. } if source.kind() == io::ErrorKind::NotFound => {
-                "check the name: a path starts from the folder of campaign.toml".to_owned()
+                "check the name: a path in a campaign.toml starts from the folder of that file".to_owned()
             }
             Self::Open { source, .. } | Self::Read { source, .. }
                 if source.kind() == io::ErrorKind::IsADirectory =>

@@ -265,7 +265,7 @@ fn a_missing_file_is_named() {
     fails(
         result,
         "no/such.csv: cannot be opened: No such file or directory (os error 2)",
-        Some("check the name: a path starts from the folder of campaign.toml"),
+        Some("check the name: a path in a campaign.toml starts from the folder of that file"),
     );
 }
 
