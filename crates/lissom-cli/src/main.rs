@@ -1,53 +1,7 @@
-//! The command `lissom`: parse, call the library, print.
-//!
-//! Exit codes: 0 done, 1 the input cannot be used, 2 wrong usage, 3 done but the verdict refuses a
-//! figure asked for or a wish of a plan cannot be met, 5 a
-//! parameter is outside its limits, 4 stopped by Ctrl-C or a time limit, with the best result so far
-//! (130 after a second Ctrl-C, without one).
-
-mod args;
-mod commands;
-mod shared;
-mod tasks;
-mod views;
+//! The program `lissom`.
 
 use std::process::ExitCode;
 
-use clap::Parser as _;
-
-use crate::args::command_line::{Cli, Command};
-use crate::commands::{
-    check_command, compare_command, completions_command, demo, equivalent, export_command,
-    identify_command, init_command, inspect_command, man_command, model_command, payload_command,
-    plan, report_figures, rig, thresholds_command, validate_command,
-};
-use crate::views::printer;
-
 fn main() -> ExitCode {
-    let outcome = match Cli::parse().command {
-        Command::Inspect(args) => inspect_command::run(&args),
-        Command::Init(args) => init_command::run(&args),
-        Command::Identify(args) => identify_command::run(&args),
-        Command::Validate(args) => validate_command::run(&args),
-        Command::Check(args) => check_command::run(&args),
-        Command::Compare(args) => compare_command::run(&args),
-        Command::Export(args) => export_command::run(&args),
-        Command::Equivalent(args) => equivalent::run(&args),
-        Command::Payload(args) => payload_command::run(&args),
-        Command::Model(args) => model_command::run(&args),
-        Command::Plan(args) => plan::run(&args),
-        Command::Rig(args) => rig::run(&args),
-        Command::Thresholds(args) => thresholds_command::run(&args),
-        Command::Figures(args) => report_figures::run(&args),
-        Command::Completions(args) => Ok(completions_command::run(&args)),
-        Command::Man(args) => man_command::run(&args),
-        Command::Demo(args) => demo::run(&args),
-    };
-    match outcome {
-        Ok(code) => code,
-        Err(failure) => {
-            printer::failure(&failure);
-            ExitCode::from(1)
-        }
-    }
+    ExitCode::from(lissom_cli::run(std::env::args_os()))
 }

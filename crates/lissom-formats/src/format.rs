@@ -8,6 +8,8 @@ use crate::zip::ZIP;
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum Format {
+    /// No file: columns in memory.
+    Memory,
     /// Delimited text.
     Text,
     /// Text with one row for each signal.
@@ -48,6 +50,7 @@ impl Format {
     /// Its name.
     pub fn name(self) -> &'static str {
         match self {
+            Self::Memory => "table in memory",
             Self::Text => "delimited text",
             Self::TextByRow => "text with one row for each signal",
             Self::TextByValue => "text with one row for each value",

@@ -2,7 +2,7 @@
 
 use crate::format::Format;
 use crate::unit;
-use crate::words::Words;
+use crate::words::{Words, WordsBuilder};
 
 /// The content of a log file.
 #[derive(Debug, Clone, PartialEq)]
@@ -18,6 +18,34 @@ pub struct LogData {
 }
 
 impl LogData {
+    /// A table in memory: columns of numbers with their names, NaN where a value is missing.
+    pub fn of_columns<N: Into<String>>(columns: impl IntoIterator<Item = (N, Vec<f64>)>) -> Self {
+        let mut channels: Vec<Channel> =
+            columns.into_iter().map(|(name, values)| Channel::of(name, values)).collect();
+        channels.iter_mut().for_each(Channel::take_unit_of_name);
+        Self { format: Format::Memory, channels, decimal_comma: false, notes: Vec::new() }
+    }
+
+    /// The same with a column of words, such as the name of the run of each row; a blank is a missing word.
+    #[must_use]
+    pub fn with_words<'w>(
+        mut self,
+        name: impl Into<String>,
+        words: impl IntoIterator<Item = &'w str>,
+    ) -> Self {
+        let mut builder = WordsBuilder::default();
+        let mut rows = 0;
+        for (row, word) in words.into_iter().enumerate() {
+            builder.push(row, word);
+            rows = row + 1;
+        }
+        let words = builder.finish(rows);
+        let not_a_number = words.as_ref().and_then(Words::first).map(|first| (0, first.to_owned()));
+        let channel = Channel::of(name, vec![f64::NAN; rows]);
+        self.channels.push(Channel { not_a_number, words, ..channel });
+        self
+    }
+
     /// The same with a channel `time` \[s\] for each even clock, which its channels then have as their time stamps.
     #[must_use]
     pub fn with_time_stamps(mut self) -> Self {

@@ -49,8 +49,8 @@ pub use arm_file::{
     SignalSpec, SpanSpec, TipSpec,
 };
 pub use campaign::{
-    AnalysisOptions, CampaignError, CampaignFile, DriveConstants, ReadOptions, read_campaign,
-    read_campaign_like, read_campaign_text, read_campaign_with,
+    AnalysisOptions, CampaignError, CampaignFile, CampaignReader, DriveConstants, MemoryLogs,
+    ReadOptions, read_campaign, read_campaign_like,
 };
 pub use comparison::{DemoFile, FiguresFile};
 pub use config::{ConfigError, ConfigPlace, Rule};

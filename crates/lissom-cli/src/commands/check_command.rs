@@ -2,7 +2,6 @@
 
 use std::collections::BTreeMap;
 use std::path::Path;
-use std::process::ExitCode;
 
 use lissom::identify::Effort;
 use lissom_io::limits::{CheckFile, LimitsFile, Outcome};
@@ -11,7 +10,7 @@ use lissom_io::{CampaignFile, ParameterList, ResultFile, read_campaign_like};
 
 use crate::args::check_args::CheckArgs;
 use crate::args::stdout_name::STDOUT;
-use crate::shared::exit_codes::{OUTSIDE, REFUSED};
+use crate::shared::exit_codes::ExitCode;
 use crate::shared::failure::Failure;
 use crate::shared::output_guard;
 use crate::tasks::described_logs::DescribedLogs;
@@ -67,8 +66,8 @@ pub(crate) fn run(args: &CheckArgs) -> Result<ExitCode, Failure> {
     }
     Ok(match check.outcome {
         Outcome::Pass => ExitCode::SUCCESS,
-        Outcome::Undecided => ExitCode::from(REFUSED),
-        Outcome::Fail => ExitCode::from(OUTSIDE),
+        Outcome::Undecided => ExitCode::REFUSED,
+        Outcome::Fail => ExitCode::OUTSIDE,
     })
 }
 

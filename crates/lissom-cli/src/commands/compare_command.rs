@@ -1,12 +1,12 @@
 //! `lissom compare RESULT RESULT...`: parameters side by side.
 
 use std::path::Path;
-use std::process::ExitCode;
 
 use lissom_io::write::{self, Batch};
 
 use crate::args::compare_args::CompareArgs;
 use crate::args::stdout_name::STDOUT;
+use crate::shared::exit_codes::ExitCode;
 use crate::shared::failure::Failure;
 use crate::shared::output_guard;
 use crate::tasks::result_comparison::{compared, is_result};

@@ -1,11 +1,10 @@
 //! `lissom completions SHELL`.
 
-use std::process::ExitCode;
-
 use clap::CommandFactory as _;
 
 use crate::args::command_line::Cli;
 use crate::args::completions_args::CompletionsArgs;
+use crate::shared::exit_codes::ExitCode;
 use crate::views::printer;
 
 pub(crate) fn run(args: &CompletionsArgs) -> ExitCode {

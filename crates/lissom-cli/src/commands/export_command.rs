@@ -1,7 +1,6 @@
 //! `lissom export RESULT --to TARGET --out FILE`.
 
 use std::path::Path;
-use std::process::ExitCode;
 
 use lissom_io::ArmFile;
 use lissom_io::export::{
@@ -11,6 +10,7 @@ use lissom_io::export::{
 use lissom_io::write::Batch;
 
 use crate::args::export_args::{ExportArgs, Target};
+use crate::shared::exit_codes::ExitCode;
 use crate::shared::failure::Failure;
 use crate::shared::output_guard;
 use crate::tasks::described_logs::is_toml;

@@ -2,7 +2,6 @@
 
 use std::io::{IsTerminal as _, stdout};
 use std::path::Path;
-use std::process::ExitCode;
 
 use lissom::identify::{Effort, Identified, SearchEnd, Severity};
 use lissom_io::write::{self, Batch};
@@ -10,7 +9,7 @@ use lissom_io::{ResultFile, UnitNames, read_campaign};
 
 use crate::args::identify_args::IdentifyArgs;
 use crate::args::stdout_name::STDOUT;
-use crate::shared::exit_codes::{INTERRUPTED, REFUSED};
+use crate::shared::exit_codes::ExitCode;
 use crate::shared::failure::Failure;
 use crate::shared::output_guard;
 use crate::tasks::described_logs::{DescribedLogs, is_toml};
@@ -103,8 +102,8 @@ fn described(args: &IdentifyArgs) -> Result<Option<DescribedLogs>, Failure> {
 
 fn code(id: &Identified) -> ExitCode {
     if id.output_error.as_ref().is_some_and(|found| found.end == SearchEnd::Interrupted) {
-        return ExitCode::from(INTERRUPTED);
+        return ExitCode::INTERRUPTED;
     }
     let refused = id.findings.iter().any(|f| f.severity() == Severity::Refusal);
-    if refused { ExitCode::from(REFUSED) } else { ExitCode::SUCCESS }
+    if refused { ExitCode::REFUSED } else { ExitCode::SUCCESS }
 }

@@ -1,11 +1,11 @@
 //! `lissom init LOG...`.
 
 use std::path::PathBuf;
-use std::process::ExitCode;
 
 use lissom_io::write;
 
 use crate::args::init_args::InitArgs;
+use crate::shared::exit_codes::ExitCode;
 use crate::shared::failure::Failure;
 use crate::shared::shell_word::shell_word;
 use crate::tasks::described_logs::DescribedLogs;

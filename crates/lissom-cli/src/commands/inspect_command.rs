@@ -1,13 +1,13 @@
 //! `lissom inspect LOG...`.
 
 use std::path::Path;
-use std::process::ExitCode;
 
 use lissom_io::inspect::{InspectionFile, TextOptions, inspect_with};
 use lissom_io::write::{self, Batch};
 
 use crate::args::inspect_args::InspectArgs;
 use crate::args::stdout_name::STDOUT;
+use crate::shared::exit_codes::ExitCode;
 use crate::shared::failure::Failure;
 use crate::shared::output_guard;
 use crate::views::{channel_plots, inspection_table, printer};

@@ -1,13 +1,12 @@
 //! `lissom man DIR`.
 
-use std::process::ExitCode;
-
 use clap::CommandFactory as _;
 use clap_mangen::Man;
 use lissom_io::write::{self, Batch};
 
 use crate::args::command_line::Cli;
 use crate::args::man_args::ManArgs;
+use crate::shared::exit_codes::ExitCode;
 use crate::shared::failure::Failure;
 
 pub(crate) fn run(args: &ManArgs) -> Result<ExitCode, Failure> {

@@ -1,13 +1,13 @@
 //! `lissom model ARM`: the model of an arm, from its dimensions.
 
 use std::path::Path;
-use std::process::ExitCode;
 
 use lissom_io::write::{self, Batch};
 use lissom_io::{ArmFile, ModelFile, read_frequencies};
 
 use crate::args::model_args::{ModelArgs, Omega};
 use crate::args::stdout_name::STDOUT;
+use crate::shared::exit_codes::ExitCode;
 use crate::shared::failure::Failure;
 use crate::shared::{output_guard, progress_bar};
 use crate::tasks::any_beam::{Beam, MOST_DENSE};

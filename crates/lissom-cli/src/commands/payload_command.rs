@@ -1,7 +1,6 @@
 //! `lissom payload CAMPAIGN`: an arm that was identified with one payload, predicted with others.
 
 use std::path::Path;
-use std::process::ExitCode;
 
 use lissom::identify::{Identified, LoadedArm, OutputError};
 use lissom::record::{Axis, Channels};
@@ -10,6 +9,7 @@ use lissom_io::{PayloadFile, PayloadPrediction, PredictedPayload, read_campaign}
 
 use crate::args::payload_args::PayloadArgs;
 use crate::args::stdout_name::STDOUT;
+use crate::shared::exit_codes::ExitCode;
 use crate::shared::failure::Failure;
 use crate::shared::output_guard;
 use crate::tasks::identification::{Asked, identified};

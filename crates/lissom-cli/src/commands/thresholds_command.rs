@@ -1,13 +1,13 @@
 //! `lissom thresholds`.
 
 use std::path::Path;
-use std::process::ExitCode;
 
 use lissom_io::ThresholdsFile;
 use lissom_io::write::{self, Batch};
 
 use crate::args::stdout_name::STDOUT;
 use crate::args::thresholds_args::ThresholdsArgs;
+use crate::shared::exit_codes::ExitCode;
 use crate::shared::failure::Failure;
 use crate::shared::output_guard;
 use crate::views::{printer, threshold_table};

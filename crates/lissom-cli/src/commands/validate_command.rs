@@ -1,7 +1,6 @@
 //! `lissom validate RESULT LOG`.
 
 use std::path::Path;
-use std::process::ExitCode;
 
 use lissom::identify::{Severity, ValidationOptions, validate};
 use lissom_io::write::{self, Batch};
@@ -11,7 +10,7 @@ use lissom_io::{
 
 use crate::args::stdout_name::STDOUT;
 use crate::args::validate_args::ValidateArgs;
-use crate::shared::exit_codes::REFUSED;
+use crate::shared::exit_codes::ExitCode;
 use crate::shared::failure::Failure;
 use crate::shared::output_guard;
 use crate::tasks::described_logs::is_toml;
@@ -50,7 +49,7 @@ pub(crate) fn run(args: &ValidateArgs) -> Result<ExitCode, Failure> {
         finding_list::findings(&validation.findings);
     }
     let refused = validation.findings.iter().any(|f| f.severity() == Severity::Refusal);
-    Ok(if refused { ExitCode::from(REFUSED) } else { ExitCode::SUCCESS })
+    Ok(if refused { ExitCode::REFUSED } else { ExitCode::SUCCESS })
 }
 
 /// Reads the log: a campaign.toml, or one log with the columns and units of another campaign.

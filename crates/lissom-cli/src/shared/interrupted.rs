@@ -1,11 +1,10 @@
 //! Ctrl-C: the first one stops a search with the best result so far, the second one stops the program.
 
-use std::process;
 use std::sync::OnceLock;
 
 use lissom::identify::Interrupt;
 
-use super::exit_codes::KILLED;
+use super::exit_codes::ExitCode;
 
 static SEARCH: OnceLock<Interrupt> = OnceLock::new();
 
@@ -18,7 +17,7 @@ pub(crate) fn on_ctrl_c(interrupt: &Interrupt) {
     let handler = || {
         let Some(search) = SEARCH.get() else { return };
         if search.is_asked() {
-            process::exit(KILLED);
+            ExitCode::KILLED.exit();
         }
         search.ask();
     };

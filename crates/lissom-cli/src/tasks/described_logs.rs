@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 use lissom::identify::hold_shown;
 use lissom::record::Hold;
 use lissom_io::inspect::{CampaignDraft, Description, DraftError, Inspection, Role, inspect_with};
-use lissom_io::{CampaignFile, read_campaign_text};
+use lissom_io::{CampaignFile, CampaignReader};
 
 use crate::shared::failure::Failure;
 use crate::shared::shell_word::shell_word;
@@ -75,7 +75,7 @@ impl DescribedLogs {
     /// Reads the logs.
     pub(crate) fn read(&self) -> Result<CampaignFile, Failure> {
         let text = self.draft.text().map_err(lissom_io::Error::from)?;
-        Ok(read_campaign_text(NAME, text)?)
+        Ok(CampaignReader::of_text(NAME, text).read()?)
     }
 }
 

@@ -1,7 +1,7 @@
 //! Logs that are used, and what is said of them.
 
 use lissom::identify::{Options, identify};
-use lissom_io::{ReadOptions, campaign::read_campaign_with};
+use lissom_io::{CampaignReader, ReadOptions};
 
 use crate::bench::{Bench, Row, csv, good, motion, sticking, text};
 
@@ -66,7 +66,10 @@ fn gaps_cut_a_log_into_runs() {
 fn a_long_log_is_thinned() {
     let bench = Bench::new();
     let options = ReadOptions { max_rows: 1500, ..ReadOptions::default() };
-    let file = read_campaign_with(&bench.path().join("campaign.toml"), &options).unwrap();
+    let file = CampaignReader::of_file(&bench.path().join("campaign.toml"))
+        .options(options)
+        .read()
+        .unwrap();
     assert_eq!(file.campaign.runs[0].len(), 1000);
     let identified = identify(&file.campaign, &Options::default(), |_| {}).unwrap();
     let thinned: Vec<_> = identified.findings.iter().filter(|f| f.code() == "thinned").collect();

@@ -8,7 +8,7 @@ use lissom_core::record::{Axis, CommandQuantity, Hold, Note, TipQuantity};
 use proptest::prelude::*;
 use tempfile::TempDir;
 
-use super::{CampaignFile, ReadOptions, read_campaign, read_campaign_with};
+use super::{CampaignFile, CampaignReader, ReadOptions, read_campaign};
 use crate::io_error::Error;
 
 /// A campaign of one log `a.csv` with columns t, u, x, y.
@@ -116,7 +116,10 @@ fn gaps_make_runs_of_their_own() {
 fn long_logs_are_thinned_and_it_is_said() {
     let folder = folder(PLAIN, &[("a.csv", &log(0..1000))]);
     let options = ReadOptions { max_rows: 300, ..ReadOptions::default() };
-    let file = read_campaign_with(&folder.path().join("campaign.toml"), &options).unwrap();
+    let file = CampaignReader::of_file(&folder.path().join("campaign.toml"))
+        .options(options)
+        .read()
+        .unwrap();
     let run = &file.campaign.runs[0];
     assert_eq!((run.len(), run.sample_time_s()), (250, 0.004));
     assert_eq!(run.notes(), [Note::Thinned { factor: 4 }]);

@@ -1,7 +1,6 @@
 //! Reads logs into runs.
 
 use std::collections::HashMap;
-use std::path::Path;
 
 use lissom_core::record::clock::{self, ClockError, EvenLog, LogRows};
 use lissom_core::record::{
@@ -14,6 +13,7 @@ use super::campaign_file::ReadOptions;
 use super::campaign_signals::{CommandKind, Signals, TimeSource, TipSource};
 use super::conversions::{camera_angle, channel_in_range, in_si, stamps_s};
 use super::derived_channels::{goal_difference, integrated};
+use super::memory_logs::LogPlaces;
 use super::own_logs::{RunLog, RunSignals};
 use super::run_spec::RunSpec;
 use super::several_runs;
@@ -24,14 +24,14 @@ use crate::log::{self, ColumnRef, Log, LogColumn, LogError, LogOptions, TimeBack
 
 /// Reads all runs, several at the same time. The error is that of the first run with an error.
 pub(super) fn load(
-    folder: &Path,
+    places: LogPlaces<'_>,
     signals: &Signals,
     command: Command,
     specs: &[RunSpec],
     options: &ReadOptions,
 ) -> Result<Campaign, Error> {
     let specs =
-        several_runs::of_specs(folder, signals.run.as_ref(), specs, &signals.log_options(options))?;
+        several_runs::of_specs(places, signals.run.as_ref(), specs, &signals.log_options(options))?;
     let mut names = Vec::with_capacity(specs.len());
     let mut named: HashMap<&str, usize> = HashMap::new();
     for spec in &specs {
@@ -43,7 +43,7 @@ pub(super) fn load(
             format!("{} ({times})", spec.name)
         });
     }
-    let load = |(spec, name): (&RunSpec, &String)| load_run(folder, signals, spec, name, options);
+    let load = |(spec, name): (&RunSpec, &String)| load_run(places, signals, spec, name, options);
     let loaded: Vec<_> = specs.par_iter().zip(&names).with_max_len(1).map(load).collect();
     let mut runs = Vec::with_capacity(specs.len());
     for run in loaded {
@@ -55,13 +55,13 @@ pub(super) fn load(
 }
 
 fn load_run(
-    folder: &Path,
+    places: LogPlaces<'_>,
     signals: &Signals,
     spec: &RunSpec,
     name: &str,
     options: &ReadOptions,
 ) -> Result<Vec<Run>, Error> {
-    let path = folder.join(&spec.file);
+    let path = places.path(&spec.file);
     let file = spec.part.as_ref().map_or_else(|| path.display().to_string(), |p| p.label.clone());
     let log_options = signals.log_options(options);
     let time = signals.time.column();
@@ -70,7 +70,7 @@ fn load_run(
         None => log::read_log(&path, time, &columns(signals), &log_options)?,
     };
     let (factor, repeated) = (log.factor, log.repeated);
-    let (even, turns, own) = even_parts(log, signals, (folder, spec), options, &file)?;
+    let (even, turns, own) = even_parts(log, signals, (places, spec), options, &file)?;
     let count = even.parts.len();
     let mut runs = Vec::with_capacity(count);
     for (index, part) in even.parts.into_iter().enumerate() {
@@ -176,7 +176,7 @@ fn columns(signals: &Signals) -> Vec<LogColumn> {
 fn even_parts(
     mut log: Log,
     signals: &Signals,
-    (folder, spec): (&Path, &RunSpec),
+    (places, spec): (LogPlaces<'_>, &RunSpec),
     options: &ReadOptions,
     file: &str,
 ) -> Result<(EvenLog, usize, Vec<Note>), Error> {
@@ -200,7 +200,7 @@ fn even_parts(
     let (stamps_s, command, motor, tips, notes) = if has_own_logs(signals) {
         let mut all = RunSignals { stamps_s, command, motor, tips, notes: Vec::new() };
         let log_options = LogOptions { max_rows: options.max_rows, ..LogOptions::default() };
-        RunLog { folder, spec, signals, options: &log_options, file }.join(&mut all)?;
+        RunLog { places, spec, signals, options: &log_options, file }.join(&mut all)?;
         in_range(&all.command, &all.motor, &all.tips, signals, file)?;
         (all.stamps_s, all.command, all.motor, all.tips, all.notes)
     } else {

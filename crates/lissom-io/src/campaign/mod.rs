@@ -58,6 +58,7 @@ mod campaign_tests;
 mod conversions;
 mod derived_channels;
 mod load_runs;
+mod memory_logs;
 mod own_logs;
 mod read_campaign;
 mod run_spec;
@@ -70,6 +71,5 @@ mod whole_turns;
 pub use campaign_error::CampaignError;
 pub use campaign_file::{AnalysisOptions, CampaignFile, DriveConstants, ReadOptions};
 pub(crate) use campaign_signals::column;
-pub use read_campaign::{
-    read_campaign, read_campaign_like, read_campaign_text, read_campaign_with,
-};
+pub use memory_logs::MemoryLogs;
+pub use read_campaign::{CampaignReader, read_campaign, read_campaign_like};

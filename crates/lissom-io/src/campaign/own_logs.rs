@@ -9,6 +9,7 @@ use lissom_core::record::{Axis, Hold, Note, TipQuantity};
 
 use super::campaign_signals::{OwnLog, Signals, TipSource};
 use super::conversions::{camera_angle, channel_in_range, in_si, stamps_s};
+use super::memory_logs::LogPlaces;
 use super::run_spec::RunSpec;
 use super::whole_turns;
 use crate::io_error::Error;
@@ -19,7 +20,7 @@ const GAP_STEPS: f64 = 4.5;
 
 /// The log of a run, while signals of other logs are added to it.
 pub(super) struct RunLog<'a> {
-    pub(super) folder: &'a Path,
+    pub(super) places: LogPlaces<'a>,
     pub(super) spec: &'a RunSpec,
     pub(super) signals: &'a Signals,
     pub(super) options: &'a LogOptions,
@@ -166,14 +167,21 @@ impl RunLog<'_> {
         columns: &[&ColumnRef],
     ) -> Result<OwnColumns, Error> {
         let named = PathBuf::from(log::of_run(&own.file, &self.spec.file));
-        let path = self.folder.join(of_run.unwrap_or(&named));
-        let file = path.display().to_string();
+        let relative = of_run.unwrap_or(&named);
+        let path = self.places.path(relative);
+        let in_memory = self.places.in_memory(relative);
+        let file = in_memory
+            .as_ref()
+            .map_or_else(|| path.display().to_string(), |part| part.label.clone());
         let columns: Vec<LogColumn> = columns
             .iter()
             .map(|column| LogColumn { column: (*column).clone(), hold: Hold::Measured })
             .collect();
         let source = own.time.as_ref().unwrap_or(&self.signals.time);
-        let mut log = log::read_log(&path, source.column(), &columns, self.options)?;
+        let mut log = match &in_memory {
+            Some(part) => log::read_part(part, source.column(), &columns, self.options)?,
+            None => log::read_log(&path, source.column(), &columns, self.options)?,
+        };
         let stamps_s = stamps_s(source, &mut log);
         channel_in_range("time", &stamps_s, &file)?;
         if let Some(back) = log.time_back.first() {

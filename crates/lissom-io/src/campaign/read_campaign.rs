@@ -1,52 +1,95 @@
 //! Reads a `campaign.toml` and its logs.
 
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 use super::campaign_drive;
 use super::campaign_file::{AnalysisOptions, CampaignFile, ReadOptions};
 use super::campaign_load::{self, CampaignLoad};
 use super::campaign_signals::signals;
 use super::load_runs::load;
+use super::memory_logs::{LogPlaces, MemoryLogs};
 use super::run_spec::{RunSpec, runs};
 use crate::config::{ConfigError, Source, Table};
 use crate::io_error::Error;
 use crate::units::Dimension;
 
+/// Reads a campaign: its description from a file or a text, its logs from files or from memory.
+#[derive(Debug)]
+#[must_use = "nothing is read before `read`"]
+pub struct CampaignReader {
+    source: Result<Source, ConfigError>,
+    logs: MemoryLogs,
+    only: Option<PathBuf>,
+    options: ReadOptions,
+}
+
+impl CampaignReader {
+    /// Starts with a `campaign.toml`.
+    pub fn of_file(path: &Path) -> Self {
+        Self::new(Source::read(path))
+    }
+
+    /// Starts with the text of a `campaign.toml`. Errors call it `name`; files in it are relative to the folder of that
+    /// name, the working directory if it has none.
+    pub fn of_text(name: impl AsRef<Path>, text: String) -> Self {
+        Self::new(Ok(Source::new(name.as_ref(), text)))
+    }
+
+    fn new(source: Result<Source, ConfigError>) -> Self {
+        let (logs, options) = (MemoryLogs::default(), ReadOptions::default());
+        Self { source, logs, only: None, options }
+    }
+
+    /// Takes logs from memory: a `file` of the campaign that is the name of one of them is that log.
+    pub fn with_logs(mut self, logs: MemoryLogs) -> Self {
+        self.logs = logs;
+        self
+    }
+
+    /// Reads this log in place of the runs of the campaign. The `skip` in its `[analysis]` applies too.
+    pub fn only(mut self, log: &Path) -> Self {
+        self.only = Some(log.to_owned());
+        self
+    }
+
+    /// Sets limits for reading.
+    pub fn options(mut self, options: ReadOptions) -> Self {
+        self.options = options;
+        self
+    }
+
+    /// Reads the campaign.
+    ///
+    /// # Errors
+    /// [`Error::Config`] and [`Error::Campaign`] for the description itself and its `arm.toml`,
+    /// [`Error::Log`] and [`Error::Record`] for the logs.
+    pub fn read(self) -> Result<CampaignFile, Error> {
+        read(&self.source?, self.only.as_deref(), &self.logs, &self.options)
+    }
+}
+
 /// Reads a `campaign.toml` and its logs.
 ///
 /// # Errors
-/// [`Error::Config`] and [`Error::Campaign`] for the file itself and its `arm.toml`,
-/// [`Error::Log`] and [`Error::Record`] for the logs.
+/// As [`CampaignReader::read`].
 pub fn read_campaign(path: &Path) -> Result<CampaignFile, Error> {
-    read_campaign_with(path, &ReadOptions::default())
+    CampaignReader::of_file(path).read()
 }
 
-/// Reads a `campaign.toml` and its logs, with other limits.
+/// Reads only `log`, with the columns and units of the campaign at `path`.
 ///
 /// # Errors
-/// As [`read_campaign`].
-pub fn read_campaign_with(path: &Path, options: &ReadOptions) -> Result<CampaignFile, Error> {
-    read(&Source::read(path)?, None, options)
-}
-
-/// Reads a campaign whose `campaign.toml` is a text. Files in it are relative to the working directory; errors call the
-/// text `name`.
-///
-/// # Errors
-/// As [`read_campaign`].
-pub fn read_campaign_text(name: &str, text: String) -> Result<CampaignFile, Error> {
-    read(&Source::new(Path::new(name), text), None, &ReadOptions::default())
-}
-
-/// Reads only `log`, with the columns and units of the campaign at `path`. The `skip` in its `[analysis]` applies too.
-///
-/// # Errors
-/// As [`read_campaign`].
+/// As [`CampaignReader::read`].
 pub fn read_campaign_like(path: &Path, log: &Path) -> Result<CampaignFile, Error> {
-    read(&Source::read(path)?, Some(log), &ReadOptions::default())
+    CampaignReader::of_file(path).only(log).read()
 }
 
-fn read(source: &Source, log: Option<&Path>, options: &ReadOptions) -> Result<CampaignFile, Error> {
+fn read(
+    source: &Source,
+    log: Option<&Path>,
+    memory: &MemoryLogs,
+    options: &ReadOptions,
+) -> Result<CampaignFile, Error> {
     let document = source.parse()?;
     let root = source.root(&document);
     root.only(&["signals", "drive", "load", "analysis", "runs"])?;
@@ -67,7 +110,7 @@ fn read(source: &Source, log: Option<&Path>, options: &ReadOptions) -> Result<Ca
         Some(log) => (Path::new(""), vec![RunSpec::of_log(log, skip_s)]),
         None => (source.folder(), runs(&root.need("runs")?, skip_s)?),
     };
-    let campaign = load(folder, &signals, command, &runs, options)?;
+    let campaign = load(LogPlaces { folder, memory }, &signals, command, &runs, options)?;
     let campaign = match on_motor {
         CampaignLoad { mgl_nm: Some(mgl_nm), .. } => campaign.with_known_gravity(mgl_nm)?,
         CampaignLoad { gravity: true, .. } => campaign.with_gravity()?,

@@ -1,26 +1,29 @@
 //! Files with several runs: in groups of channels, or numbered by a column.
 
-use std::path::Path;
-
+use super::memory_logs::LogPlaces;
 use super::run_spec::RunSpec;
 use crate::io_error::Error;
 use crate::log::{ColumnRef, LogOptions, LogPath};
 
 /// A run for each group that `FILE::GROUP` fits, and for each number in the column `run`.
 pub(super) fn of_specs(
-    folder: &Path,
+    places: LogPlaces<'_>,
     run: Option<&ColumnRef>,
     specs: &[RunSpec],
     options: &LogOptions,
 ) -> Result<Vec<RunSpec>, Error> {
     let mut runs = Vec::with_capacity(specs.len());
     for spec in specs {
-        let path = LogPath::of(&folder.join(&spec.file));
-        if path.group.is_none() && run.is_none() {
-            runs.push(spec.clone());
+        let path = LogPath::of(&places.path(&spec.file));
+        let in_memory = places.in_memory(&spec.file);
+        if run.is_none() && (in_memory.is_some() || path.group.is_none()) {
+            runs.push(RunSpec { part: in_memory, ..spec.clone() });
             continue;
         }
-        let groups = path.parts(&options.of_text())?;
+        let groups = match in_memory {
+            Some(part) => vec![part],
+            None => path.parts(&options.of_text())?,
+        };
         let several = groups.len() > 1;
         for group in groups {
             let parts = match run {

@@ -75,6 +75,11 @@ pub fn inspect_with(path: &Path, options: &ReadOptions) -> Result<Inspection, Er
     Ok(found)
 }
 
+/// Describes a log in memory, which is called `name`.
+pub fn inspect_data(name: &str, data: LogData) -> Inspection {
+    of_data(Path::new(name), data.with_time_stamps())
+}
+
 /// The first log of those that a path fits, and the groups of all.
 fn first_of(path: &Path, options: &ReadOptions) -> Result<(LogData, Vec<String>), Error> {
     let mut parts = LogPath::of(path).parts(options)?;

@@ -1,7 +1,6 @@
 //! `lissom demo`: the experiment of the 1989 report on a virtual rig, identified from its logs only.
 
 use std::path::Path;
-use std::process::ExitCode;
 
 use lissom_io::write::{self, Batch};
 use lissom_io::{ArmFile, ResultFile, UnitNames, read_campaign};
@@ -9,6 +8,7 @@ use lissom_io::{ArmFile, ResultFile, UnitNames, read_campaign};
 use super::demo_campaign;
 use crate::args::demo_args::DemoArgs;
 use crate::args::stdout_name::STDOUT;
+use crate::shared::exit_codes::ExitCode;
 use crate::shared::failure::Failure;
 use crate::shared::output_guard;
 use crate::tasks::demo_comparison::{compared, comparison};

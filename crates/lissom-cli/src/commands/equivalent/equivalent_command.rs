@@ -1,7 +1,6 @@
 //! `lissom equivalent CAMPAIGN|FRF...`: the equivalent arm of Section 4 of the 1989 report, from measured responses.
 
 use std::path::Path;
-use std::process::ExitCode;
 
 use lissom::beam::{BestPoint, DistributedBeam};
 use lissom::identify::{EquivalentError, EquivalentRefusal, equivalent};
@@ -11,6 +10,7 @@ use lissom_io::{ArmFile, BeamKind, EquivalentFile};
 use super::saved_arm;
 use crate::args::equivalent_args::EquivalentArgs;
 use crate::args::stdout_name::STDOUT;
+use crate::shared::exit_codes::ExitCode;
 use crate::shared::failure::Failure;
 use crate::shared::output_guard;
 use crate::tasks::equivalent_input::Input;

@@ -1,7 +1,6 @@
 //! `lissom plan`: the runs that give a wanted precision.
 
 use std::path::Path;
-use std::process::ExitCode;
 
 use lissom::plan::{Plan, Wishes, plan};
 use lissom::rig::Rig;
@@ -11,12 +10,10 @@ use lissom_io::{ArmFile, PlannedFile};
 use super::reference_tables;
 use crate::args::plan_args::PlanArgs;
 use crate::args::stdout_name::STDOUT;
+use crate::shared::exit_codes::ExitCode;
 use crate::shared::failure::Failure;
 use crate::shared::{output_guard, progress_bar};
 use crate::views::{plan_table, printer};
-
-/// Done, but a wanted precision does not fit into the allowed time.
-const UNREACHED: u8 = 3;
 
 pub(crate) fn run(args: &PlanArgs) -> Result<ExitCode, Failure> {
     let to_stdout = args.json.as_deref() == Some(Path::new(STDOUT));
@@ -49,7 +46,7 @@ pub(crate) fn run(args: &PlanArgs) -> Result<ExitCode, Failure> {
         (false, Some(path)) => plan_table::report(&args.arm, &made, path),
     }
     let reached = made.expected.iter().all(|e| e.std <= e.wanted);
-    Ok(if reached { ExitCode::SUCCESS } else { ExitCode::from(UNREACHED) })
+    Ok(if reached { ExitCode::SUCCESS } else { ExitCode::REFUSED })
 }
 
 fn planned(arm: &Path, rig: &Rig, wishes: &Wishes) -> Result<Plan, Failure> {

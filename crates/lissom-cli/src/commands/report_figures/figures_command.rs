@@ -1,7 +1,6 @@
 //! `lissom figures`: Figures 6, 7 and 8 of the 1989 report, from simulated logs.
 
 use std::path::Path;
-use std::process::ExitCode;
 
 use lissom_io::write::{self, Batch};
 use lissom_io::{ArmFile, PlanFile, UnitNames, read_campaign};
@@ -9,6 +8,7 @@ use lissom_io::{ArmFile, PlanFile, UnitNames, read_campaign};
 use crate::args::figures_args::FiguresArgs;
 use crate::args::stdout_name::STDOUT;
 use crate::commands::rig::virtual_campaign::{self, Inputs};
+use crate::shared::exit_codes::ExitCode;
 use crate::shared::failure::Failure;
 use crate::shared::output_guard;
 use crate::tasks::identification::{Asked, identified};

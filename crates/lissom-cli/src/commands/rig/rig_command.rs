@@ -1,7 +1,6 @@
 //! `lissom rig`: a campaign of experiments on a virtual arm.
 
 use std::path::Path;
-use std::process::ExitCode;
 
 use lissom::rig::Drive;
 use lissom_io::write;
@@ -11,6 +10,7 @@ use super::campaign_folder::DONE;
 use super::virtual_campaign::{CAMPAIGN, Inputs, campaign};
 use crate::args::rig_args::RigArgs;
 use crate::args::stdout_name::STDOUT;
+use crate::shared::exit_codes::ExitCode;
 use crate::shared::failure::Failure;
 use crate::shared::output_guard;
 use crate::views::printer;
