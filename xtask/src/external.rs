@@ -4,12 +4,15 @@
 //! (`sysid.py`).
 
 use std::{
-    env, fs,
+    env,
     path::{Path, PathBuf},
     process::Command,
 };
 
-use crate::step::{Failure, ask, cargo, run};
+use crate::{
+    python_environment::PythonEnvironment,
+    step::{Failure, cargo, folder, run},
+};
 
 /// A Python environment with the versions that `requirements.txt` pins.
 struct Python {
@@ -21,23 +24,9 @@ impl Python {
     /// Builds the environment if it is missing.
     fn new(root: &Path) -> Result<Self, Failure> {
         let scripts = root.join("xtask/external");
-        let environment = folder(root, "external")?.join("venv");
-        let bin = environment.join(if cfg!(windows) { "Scripts" } else { "bin" });
-        let python = Self { program: bin.join("python"), scripts };
-        if ask(Command::new(&python.program).arg("--version")).is_err() {
-            let system = if cfg!(windows) { "python" } else { "python3" };
-            let (found, _) = ask(Command::new(system).arg("--version")).unwrap_or_default();
-            if !found {
-                return Err(Failure::Missing { tool: "Python", install: "Python 3.11 or newer" });
-            }
-            let mut made = Command::new(system);
-            run("python: environment", made.args(["-m", "venv"]).arg(&environment))?;
-        }
-        let mut install = Command::new(&python.program);
-        install.args(["-m", "pip", "install", "--quiet", "--disable-pip-version-check"]);
-        install.arg("--requirement").arg(python.scripts.join("requirements.txt"));
-        run("pip: pinned versions", &mut install)?;
-        Ok(python)
+        let environment =
+            PythonEnvironment::new(root, "external", &scripts.join("requirements.txt"))?;
+        Ok(Self { program: environment.program, scripts })
     }
 
     fn script(&self, name: &str) -> Command {
@@ -45,14 +34,6 @@ impl Python {
         command.arg(self.scripts.join(name));
         command
     }
-}
-
-/// A folder under `target`, created if it is missing.
-fn folder(root: &Path, name: &str) -> Result<PathBuf, Failure> {
-    let folder = root.join("target").join(name);
-    fs::create_dir_all(&folder)
-        .map_err(|source| Failure::File { path: folder.display().to_string(), source })?;
-    Ok(folder)
 }
 
 /// Lets lissom write its experiments, compares the motions of MuJoCo and scipy with them, identifies a

@@ -10,8 +10,10 @@ mod examples;
 mod external;
 mod fuzz;
 mod measured;
+mod python_environment;
 mod release;
 mod step;
+mod wheel;
 
 use std::{
     env,
@@ -51,7 +53,7 @@ impl Takes {
 const RECIPES: &[Recipe] = &[
     Recipe {
         name: "test",
-        about: "run every test of the workspace, doctests included",
+        about: "run every test of the workspace, doctests and the Python package included",
         takes: Takes::Flags(&[]),
         run: test,
     },
@@ -84,6 +86,12 @@ const RECIPES: &[Recipe] = &[
         about: "package the crates as for publishing",
         takes: Takes::Flags(&[]),
         run: package,
+    },
+    Recipe {
+        name: "wheel",
+        about: "build the wheel of the Python package, install it into an environment under target, test it there",
+        takes: Takes::Flags(&[]),
+        run: wheel,
     },
     Recipe {
         name: "static",
@@ -189,7 +197,13 @@ fn test(context: &Context) -> Result<(), Failure> {
     outcome?;
     // In a build of its own, so that the tests before see the default build.
     let formats = ["test", "--package", "lissom-formats", "--features", "full"];
-    run("formats of the full build", &mut cargo(&context.root, &formats))
+    run("formats of the full build", &mut cargo(&context.root, &formats))?;
+    wheel(context)
+}
+
+/// Builds and tests the Python package.
+fn wheel(context: &Context) -> Result<(), Failure> {
+    wheel::test(&context.root)
 }
 
 /// Writes the schemas in `docs/` from the types; a test fails if they differ.

@@ -1,8 +1,8 @@
 //! One step of a recipe: a title, a command, its time.
 
 use std::{
-    env, fmt, io,
-    path::Path,
+    env, fmt, fs, io,
+    path::{Path, PathBuf},
     process::{Command, Stdio},
     time::Instant,
 };
@@ -53,6 +53,14 @@ pub(crate) fn cargo(root: &Path, args: &[&str]) -> Command {
     let mut command = Command::new(env::var_os("CARGO").unwrap_or_else(|| "cargo".into()));
     command.args(args).current_dir(root).stdin(Stdio::null());
     command
+}
+
+/// A folder under `target`, created if it is missing.
+pub(crate) fn folder(root: &Path, name: &str) -> Result<PathBuf, Failure> {
+    let folder = root.join("target").join(name);
+    fs::create_dir_all(&folder)
+        .map_err(|source| Failure::File { path: folder.display().to_string(), source })?;
+    Ok(folder)
 }
 
 /// Runs one step and passes its output through.

@@ -20,10 +20,18 @@ pub struct LogData {
 impl LogData {
     /// A table in memory: columns of numbers with their names, NaN where a value is missing.
     pub fn of_columns<N: Into<String>>(columns: impl IntoIterator<Item = (N, Vec<f64>)>) -> Self {
-        let mut channels: Vec<Channel> =
-            columns.into_iter().map(|(name, values)| Channel::of(name, values)).collect();
-        channels.iter_mut().for_each(Channel::take_unit_of_name);
-        Self { format: Format::Memory, channels, decimal_comma: false, notes: Vec::new() }
+        let (channels, notes) = (Vec::new(), Vec::new());
+        let empty = Self { format: Format::Memory, channels, decimal_comma: false, notes };
+        columns.into_iter().fold(empty, |log, (name, values)| log.with_column(name, values))
+    }
+
+    /// The same with a column of numbers, NaN where a value is missing.
+    #[must_use]
+    pub fn with_column(mut self, name: impl Into<String>, values: Vec<f64>) -> Self {
+        let mut channel = Channel::of(name, values);
+        channel.take_unit_of_name();
+        self.channels.push(channel);
+        self
     }
 
     /// The same with a column of words, such as the name of the run of each row; a blank is a missing word.

@@ -2,15 +2,16 @@
 
 use std::fmt;
 
+use lissom_core::arm::Arm;
 use lissom_core::identify::{
-    Estimate, Finding, FoundArm, Identified, ModeEstimate, Validation, ValidationError,
-    ValidationOptions, validate,
+    Estimate, Finding, FoundArm, GeometryCheck, Identified, ModeEstimate, Validation,
+    ValidationError, ValidationOptions, geometry_check, validate,
 };
 use lissom_core::record::{Campaign, Channels};
 use lissom_io::{ListedParameter, ParameterList, ResultFile};
 use serde::{Serialize, Serializer};
 
-use crate::parameter_text;
+use crate::result_text::ResultText;
 
 /// Result of [`Identify::run`](crate::Identify::run).
 ///
@@ -20,11 +21,20 @@ use crate::parameter_text;
 pub struct Found {
     channels: Channels,
     identified: Identified,
+    geometry: Option<GeometryCheck>,
 }
 
 impl Found {
     pub(crate) fn new(campaign: &Campaign, identified: Identified) -> Self {
-        Self { channels: campaign.channels.clone(), identified }
+        Self { channels: campaign.channels.clone(), identified, geometry: None }
+    }
+
+    /// Adds a comparison with an arm of known dimensions, if the output-error method has a solution.
+    #[must_use]
+    pub fn compared_with(mut self, arm: &Arm) -> Self {
+        let solution = self.identified.output_error.as_ref().filter(|found| found.stands());
+        self.geometry = solution.and_then(|found| geometry_check(arm, found));
+        self
     }
 
     /// Coulomb friction, mean of both directions
@@ -90,7 +100,7 @@ impl Found {
 
     /// The content of `result.json`.
     pub fn file(&self) -> ResultFile {
-        ResultFile::of(&self.channels, &self.identified, None)
+        ResultFile::of(&self.channels, &self.identified, self.geometry.as_ref())
     }
 }
 
@@ -102,20 +112,6 @@ impl Serialize for Found {
 
 impl fmt::Display for Found {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let list = ParameterList::of(&self.file()).ok_or(fmt::Error)?;
-        if let Some(method) = self.identified.method {
-            writeln!(f, "estimates by {}", method.words())?;
-        }
-        parameter_text::table(f, &list)?;
-        if let Some(separability) = &self.identified.separability {
-            for words in separability.words(self.channels.axis) {
-                write!(f, "\n{words}")?;
-            }
-        }
-        for finding in self.findings() {
-            let run = finding.run.as_ref().map_or(String::new(), |run| format!(" {run}:"));
-            write!(f, "\n{} [{}]{run} {finding}", finding.severity().name(), finding.code())?;
-        }
-        Ok(())
+        ResultText(&self.file()).fmt(f)
     }
 }

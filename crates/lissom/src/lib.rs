@@ -61,7 +61,9 @@ mod found;
 mod identify_campaign;
 mod parameter_text;
 pub mod prelude;
+mod result_text;
 
 pub use error::Error;
 pub use found::Found;
 pub use identify_campaign::Identify;
+pub use result_text::ResultText;

@@ -39,15 +39,9 @@ impl Reference {
 
     /// The arm.toml that a campaign gives for comparison; `None` if it gives none, or one without a drive.
     pub(crate) fn of(file: &CampaignFile) -> Result<Option<Self>, Failure> {
-        let (Some(arm), Some(path)) = (&file.known.arm, &file.known.arm_path) else {
-            return Ok(None);
-        };
+        let Some(arm) = &file.known.arm else { return Ok(None) };
         let Some(drive) = &arm.drive else { return Ok(None) };
-        let whole = if arm.beam_kind(path).is_ok() {
-            Some(arm.simulated_arm(path).map_err(lissom_io::Error::from)?)
-        } else {
-            None
-        };
+        let whole = file.described_arm().map_err(lissom_io::Error::from)?;
         let gravity = arm.load.map(|load| load.gravity());
         Ok(Some(Self { gravity, ..Self::drive(drive, whole) }))
     }

@@ -2,10 +2,11 @@
 
 use std::path::PathBuf;
 
+use lissom_core::arm::Arm;
 use lissom_core::identify::Options;
 use lissom_core::record::Campaign;
 
-use crate::arm_file::ArmFile;
+use crate::arm_file::{ArmError, ArmFile};
 
 /// A campaign, with the other contents of its file.
 #[derive(Debug, Clone)]
@@ -19,6 +20,20 @@ pub struct CampaignFile {
 }
 
 impl CampaignFile {
+    /// The whole arm that `[drive] arm` gives for comparison; `None` if it gives none, or one without a drive or beam.
+    ///
+    /// # Errors
+    /// [`ArmError`] if its numbers do not make an arm.
+    pub fn described_arm(&self) -> Result<Option<Arm>, ArmError> {
+        let (Some(arm), Some(path)) = (&self.known.arm, &self.known.arm_path) else {
+            return Ok(None);
+        };
+        if arm.drive.is_none() || arm.beam_kind(path).is_err() {
+            return Ok(None);
+        }
+        arm.simulated_arm(path).map(Some)
+    }
+
     /// The options of its table `[analysis]`, the others by default.
     pub fn options(&self) -> Options {
         Options {

@@ -64,7 +64,7 @@ impl LogPlaces<'_> {
 
 #[cfg(test)]
 mod tests {
-    #![expect(clippy::unwrap_used, reason = "tests")]
+    use lissom_core::record::Run;
 
     use super::*;
     use crate::CampaignReader;
@@ -94,16 +94,23 @@ signals.motor = { column = 'q', unit = 'rad' }
     fn a_table_in_memory_has_several_runs() {
         let file = read("signals.run = 'trial'\nruns = [{ file = 'bench' }]").unwrap();
         let runs = file.campaign.runs;
-        let names: Vec<&str> = runs.iter().map(|run| run.name()).collect();
+        let names: Vec<&str> = runs.iter().map(Run::name).collect();
         assert_eq!(names, ["bench trial up", "bench trial down"]);
         assert!(runs.iter().all(|run| run.len() == ROWS / 2));
     }
 
     #[test]
     fn errors_name_the_table() {
+        let mut logs = MemoryLogs::default();
+        logs.add("bench", table().with_column("spare", vec![f64::INFINITY; ROWS]));
+        let text = format!("{SIGNALS}tips = [{{ name = 'tip', column = 'spare', unit = 'rad' }}]");
+        let text = format!("[signals]\n{}\n[[runs]]\nfile = 'bench'", text.replace("signals.", ""));
+        let error = CampaignReader::of_text("campaign", text).with_logs(logs).read().unwrap_err();
+        let expected = "bench: row 1, column \"spare\": \"inf\" is not a finite number";
+        assert_eq!(error.to_string(), expected);
         let error = read("runs = [{ file = 'other.csv' }]").unwrap_err();
         assert!(error.to_string().starts_with("other.csv: cannot be opened"), "{error}");
         let error = read("signals.run = 'lap'\nruns = [{ file = 'bench' }]").unwrap_err();
-        assert!(error.to_string().starts_with("bench: no column \"lap\""), "{error}");
+        assert!(error.to_string().starts_with("bench: there is no column \"lap\""), "{error}");
     }
 }

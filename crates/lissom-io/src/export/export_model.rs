@@ -9,7 +9,9 @@ use lissom_core::replay::ModalArm;
 
 use super::export_error::ExportError;
 use crate::io_error::Error;
-use crate::result::{FrequencyResponseEntry, ListedParameter, ResultFile, UnitNames, read_result};
+use crate::result::{
+    FrequencyResponseEntry, ListedParameter, ParameterList, ResultFile, UnitNames,
+};
 
 /// An arm for another program.
 #[derive(Debug, Clone)]
@@ -36,11 +38,18 @@ pub struct ExportModel {
 /// [`Error::Result`] if the file is no result, [`ExportError::NoArm`] if the result has no arm.
 pub fn export_model_of_result(path: &Path) -> Result<ExportModel, Error> {
     let file = path.display().to_string();
-    let listed = read_result(path)?;
     let text = crate::read_text::read_text(path)
         .map_err(|source| ExportError::Read { file: file.clone(), source })?;
-    let result: ResultFile = serde_json::from_str(text.trim_start_matches('\u{feff}'))
-        .map_err(|source| crate::result::ResultError::Json { file: file.clone(), source })?;
+    export_model_of_text(file, &text)
+}
+
+/// The model of the text of a `result.json`, which errors call `file`.
+///
+/// # Errors
+/// As [`export_model_of_result`].
+pub fn export_model_of_text(file: String, text: &str) -> Result<ExportModel, Error> {
+    let listed = ParameterList::of_text(&file, text)?;
+    let result = ResultFile::of_text(&file, text)?;
     let Some(entry) = &result.arm else { return Err(ExportError::NoArm { file }.into()) };
     let found = entry.found(listed.names).map_err(|wrong| crate::result::ResultError::Key {
         file: file.clone(),

@@ -15,7 +15,9 @@ mod xml_edit;
 
 pub use c_code::{CFiles, c_files};
 pub use export_error::ExportError;
-pub use export_model::{ExportModel, export_model_of_arm, export_model_of_result};
+pub use export_model::{
+    ExportModel, export_model_of_arm, export_model_of_result, export_model_of_text,
+};
 pub use mat_file::mat_file;
 pub use matlab_script::matlab_script;
 pub use mjcf::{mjcf, mjcf_into};

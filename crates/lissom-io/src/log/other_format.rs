@@ -76,6 +76,12 @@ pub(super) fn of_data(
             let (file, row, column) = (file.to_owned(), *row, column.to_string());
             return Err(LogError::NotANumber { file, row, column, found: found.clone() });
         }
+        // A missing value is NaN; an infinite one is no value.
+        if let Some(index) = data.channels[*place].values.iter().position(|v| v.is_infinite()) {
+            let found = data.channels[*place].values[index].to_string();
+            let (file, column) = (file.to_owned(), column.to_string());
+            return Err(LogError::NotFinite { file, row: index + 1, column, found });
+        }
     }
     let holds: Vec<Hold> = columns.iter().map(|c| c.hold).collect();
     let (stamps, signals) = places.split_at(usize::from(time.is_some()));

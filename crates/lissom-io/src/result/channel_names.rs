@@ -181,4 +181,19 @@ impl MethodName {
             _ => return None,
         })
     }
+
+    /// The method in words.
+    pub fn words(self) -> &'static str {
+        let method = match self {
+            Self::OutputError => Method::OutputError,
+            Self::FrictionLaw => Method::FrictionLaw,
+            Self::RegressionByDirection => Method::RegressionByDirection,
+            Self::Regression => Method::Regression,
+            Self::LeastSquares => Method::LeastSquares,
+            Self::FrequencyResponse => Method::FrequencyResponse,
+            Self::ThirdHarmonic => Method::ThirdHarmonic,
+            Self::ConstantVelocity => Method::ConstantVelocity,
+        };
+        method.words()
+    }
 }

@@ -34,6 +34,18 @@ pub enum SeverityName {
     Refusal,
 }
 
+impl SeverityName {
+    /// Its name.
+    pub fn name(self) -> &'static str {
+        let severity = match self {
+            Self::Info => Severity::Info,
+            Self::Warning => Severity::Warning,
+            Self::Refusal => Severity::Refusal,
+        };
+        severity.name()
+    }
+}
+
 impl FindingEntry {
     /// The entry of a finding.
     pub fn of(f: &Finding) -> Self {

@@ -74,7 +74,7 @@ pub use output_error_entry::{ExtensionEntry, OutputErrorEntry, StageEntry, StopN
 pub use payload_file::{
     PayloadEntry, PayloadFile, PayloadPrediction, PredictedPayload, ResponseEntry,
 };
-pub use read_arm::read_arm;
+pub use read_arm::{arm_of_text, read_arm};
 pub use read_result::{ListedParameter, PHASE_KEY, ParameterList, read_result};
 pub use result_error::ResultError;
 pub use result_file::{BeamEntry, DriveEntry, ResultFile, RunEntry, RunKindName, SinusoidEntry};

@@ -33,10 +33,14 @@ pub fn read_arm(path: &Path, channels: &Channels) -> Result<FoundArm, Error> {
     let file = path.display().to_string();
     let text =
         read_text(path).map_err(|source| ResultError::Read { file: file.clone(), source })?;
-    Ok(arm_of(&file, &text, channels)?)
+    Ok(arm_of_text(&file, &text, channels)?)
 }
 
-fn arm_of(file: &str, text: &str, channels: &Channels) -> Result<FoundArm, ResultError> {
+/// The arm of the text of a `result.json`, which errors call `file`, to predict logs with these channels.
+///
+/// # Errors
+/// As [`read_arm`].
+pub fn arm_of_text(file: &str, text: &str, channels: &Channels) -> Result<FoundArm, ResultError> {
     let file = || file.to_owned();
     let root: Value = serde_json::from_str(text.trim_start_matches('\u{feff}'))
         .map_err(|source| ResultError::Json { file: file(), source })?;

@@ -103,32 +103,43 @@ pub fn read_result(path: &Path) -> Result<ParameterList, Error> {
     let file = path.display().to_string();
     let text =
         read_text(path).map_err(|source| ResultError::Read { file: file.clone(), source })?;
-    Ok(list_of(&file, &text)?)
-}
-
-fn list_of(file: &str, text: &str) -> Result<ParameterList, ResultError> {
-    let file = || file.to_owned();
-    let root: Value = serde_json::from_str(text.trim_start_matches('\u{feff}'))
-        .map_err(|source| ResultError::Json { file: file(), source })?;
-    for key in
-        ["lissom", "axis", "torque_per_command", "friction", "drive", "beam", "runs", "findings"]
-    {
-        if root.get(key).is_none() {
-            return Err(ResultError::NoResult { file: file(), key });
-        }
-    }
-    let part: ParameterPart = serde_path_to_error::deserialize(&root).map_err(|error| {
-        let key = error.path().to_string();
-        ResultError::Value { file: file(), key, source: error.into_inner() }
-    })?;
-    part.list().ok_or_else(|| ResultError::Key {
-        file: file(),
-        key: "friction.coulomb_…".to_owned(),
-        expected: "given with the units of an axis",
-    })
+    Ok(ParameterList::of_text(&file, &text)?)
 }
 
 impl ParameterList {
+    /// The parameters of the text of a `result.json`, which errors call `file`.
+    ///
+    /// # Errors
+    /// [`ResultError`] if the text is not a result.
+    pub fn of_text(file: &str, text: &str) -> Result<Self, ResultError> {
+        let file = || file.to_owned();
+        let root: Value = serde_json::from_str(text.trim_start_matches('\u{feff}'))
+            .map_err(|source| ResultError::Json { file: file(), source })?;
+        for key in [
+            "lissom",
+            "axis",
+            "torque_per_command",
+            "friction",
+            "drive",
+            "beam",
+            "runs",
+            "findings",
+        ] {
+            if root.get(key).is_none() {
+                return Err(ResultError::NoResult { file: file(), key });
+            }
+        }
+        let part: ParameterPart = serde_path_to_error::deserialize(&root).map_err(|error| {
+            let key = error.path().to_string();
+            ResultError::Value { file: file(), key, source: error.into_inner() }
+        })?;
+        part.list().ok_or_else(|| ResultError::Key {
+            file: file(),
+            key: "friction.coulomb_…".to_owned(),
+            expected: "given with the units of an axis",
+        })
+    }
+
     /// The parameters of a result. `None` if its keys do not have the units of an axis, which results from
     /// [`ResultFile::of`] always have.
     pub fn of(result: &ResultFile) -> Option<Self> {

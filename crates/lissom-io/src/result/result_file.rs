@@ -15,6 +15,7 @@ use super::geometry_entry::GeometryEntry;
 use super::gravity_entry::GravityEntry;
 use super::linear_model_entries::{FrequencyResponseEntry, LinearModelEntries};
 use super::method_entries::MethodEntries;
+use super::result_error::ResultError;
 use super::separability_entry::SeparabilityEntry;
 use super::unit_keys::{CouplingByTipKey, CouplingKey, InertiaKey, WithUnit};
 use super::unit_names::UnitNames;
@@ -139,6 +140,16 @@ pub struct SinusoidEntry {
 }
 
 impl ResultFile {
+    /// Reads the text of a `result.json`, which errors call `file`.
+    ///
+    /// # Errors
+    /// [`ResultError::Json`] if the text is not the result of this version of lissom.
+    pub fn of_text(file: &str, text: &str) -> Result<Self, ResultError> {
+        let text = text.trim_start_matches('\u{feff}');
+        serde_json::from_str(text)
+            .map_err(|source| ResultError::Json { file: file.to_owned(), source })
+    }
+
     /// The content for an identification, with the comparison with an arm.toml if there is one.
     pub fn of(channels: &Channels, id: &Identified, described: Option<&GeometryCheck>) -> Self {
         let names = UnitNames::new(channels);

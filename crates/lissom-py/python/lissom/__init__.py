@@ -1,0 +1,44 @@
+"""Models, simulates and identifies flexible arms and motor drives whose joint has friction.
+
+A log of a drive becomes friction, inertia and a friction-free frequency response, each with a standard error, and findings
+that say what the log cannot tell:
+
+>>> import lissom
+>>> campaign = lissom.Campaign("run.csv", time="t:s", motor="q:rad", current="i:A")  # doctest: +SKIP
+>>> result = lissom.identify(campaign)  # doctest: +SKIP
+>>> print(result)  # doctest: +SKIP
+
+Numbers are in SI units and rad/s; keys end with their unit, as in ``result["friction.coulomb_nm"]``.
+"""
+
+from ._campaign import Campaign, Run
+from ._errors import FileError, InputError, Interrupted, LissomError, RefusedError
+from ._estimate import Estimate
+from ._finding import Finding
+from ._functions import identify, inspect, simulate, validate
+from ._lissom import __version__
+from ._result import Result
+from ._signal import Signal
+from ._tables import Log
+from ._validation import Validation
+
+__all__ = [
+    "Campaign",
+    "Estimate",
+    "FileError",
+    "Finding",
+    "InputError",
+    "Interrupted",
+    "LissomError",
+    "Log",
+    "RefusedError",
+    "Result",
+    "Run",
+    "Signal",
+    "Validation",
+    "__version__",
+    "identify",
+    "inspect",
+    "simulate",
+    "validate",
+]

@@ -1,0 +1,358 @@
+"""Campaigns: the logs of a drive, their columns, and what is known about the drive."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from pathlib import Path as FilePath
+from typing import TYPE_CHECKING, Any, cast
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ._errors import FileError, InputError
+from ._lissom import Campaign as Native
+from ._signal import Signal
+from ._tables import Log, Path, columns, is_path, several
+from ._toml import toml
+
+if TYPE_CHECKING:
+    from ._lissom import _Columns as Columns
+
+#: Keys of the table [drive].
+_DRIVE = (
+    "torque_constant",
+    "current_limit",
+    "voltage_limit",
+    "limit",
+    "gear_ratio",
+    "gear_efficiency",
+    "resistance",
+    "back_emf",
+    "position_gain",
+    "arm",
+)
+_INPUTS = ("current", "voltage", "torque", "command")
+
+
+@dataclass(frozen=True, eq=False)
+class Run:
+    """A run of a campaign, as it is identified: evenly sampled, in SI units.
+
+    Parameters
+    ----------
+    name : str
+        Its name.
+    sample_time_s : float
+        Its sample time [s].
+    time : array, shape (n,)
+        Time of each sample [s].
+    command : array, shape (n,)
+        Current [A], voltage [V], torque [N·m] or command.
+    motor : array, shape (n,)
+        Angle of the motor [rad]; position [m] on a linear axis.
+    tips : mapping of str to array, shape (n,)
+        Each tip by its name, in SI units of its quantity.
+    """
+
+    name: str
+    sample_time_s: float
+    time: NDArray[np.float64]
+    command: NDArray[np.float64]
+    motor: NDArray[np.float64]
+    tips: Mapping[str, NDArray[np.float64]]
+
+
+class Campaign:
+    """Logs of one drive, with the meaning of their columns.
+
+    The logs are read when they are needed, and again only if the campaign is made anew.
+
+    Parameters
+    ----------
+    runs : Log or sequence of Log
+        The logs: paths, tables of pandas, polars or pyarrow, or mappings of column names to arrays; one, or a list. A mapping
+        of names to such logs names the runs.
+    time : Signal, str or float
+        The time stamps, as ``"t:ms"``; or the sample time [s] of logs without stamps.
+    motor : Signal or str
+        Angle, position or speed of the motor.
+    current, voltage, torque, command : Signal or str, optional
+        The input of the drive: one of these. ``command`` is of unknown unit (``"u:1"``), or a position goal.
+    tips : sequence of Signal or str
+        Points of the arm.
+    speed : Signal or str, optional
+        Speed of the motor, which is compared with its angle.
+    run : str or int, optional
+        Column with the number or name of the run, if a log has several.
+    gravity : bool
+        Whether gravity of an unbalanced load acts on the motor: its torque is identified.
+    mgl : str or float, optional
+        Known torque m·g·l of that load, as ``"2.1 N*m"``, or in N·m.
+    skip : str or float, optional
+        Beginning of each run to leave out, as ``"1 s"``, or in seconds.
+    window : str or float, optional
+        Length of the window of the regression; chosen from the data if absent.
+    hold : {'measured', 'sampled'}, optional
+        How the input acts between samples; overrides that of its signal.
+    **drive : str or float
+        Constants of the drive: ``torque_constant`` ("0.1 N*m/A", or in N·m per unit of the input), ``current_limit``,
+        ``voltage_limit``, ``gear_ratio``, ``gear_efficiency``, ``resistance``, ``back_emf``, ``position_gain``, ``arm`` (path
+        of an arm.toml to compare with). Numbers are in SI units.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> t = np.arange(2000) * 1e-3
+    >>> run = {"t": t, "i": np.sin(9 * t), "q": np.sin(5 * t)}
+    >>> campaign = Campaign(run, time="t:s", motor="q:rad", current="i:A")
+    >>> campaign.runs[0].motor.shape
+    (2000,)
+    """
+
+    def __init__(
+        self,
+        runs: Log | Sequence[Log] | Mapping[str, Log],
+        *,
+        time: Signal | str | float,
+        motor: Signal | str,
+        current: Signal | str | None = None,
+        voltage: Signal | str | None = None,
+        torque: Signal | str | None = None,
+        command: Signal | str | None = None,
+        tips: Sequence[Signal | str] = (),
+        speed: Signal | str | None = None,
+        run: str | int | None = None,
+        gravity: bool = False,
+        mgl: str | float | None = None,
+        skip: str | float | None = None,
+        window: str | float | None = None,
+        hold: str | None = None,
+        **drive: str | float,
+    ) -> None:
+        inputs = {"current": current, "voltage": voltage, "torque": torque, "command": command}
+        given = {key: Signal.of(value) for key, value in inputs.items() if value is not None}
+        if len(given) != 1:
+            found = " and ".join(given) if given else "none"
+            raise InputError(
+                f"a campaign has one input of the drive, {', '.join(_INPUTS)}; given: {found}",
+                'give one, as in current="i:A"',
+            )
+        ((role, source),) = given.items()
+        signals: dict[str, object] = {}
+        if isinstance(time, (int, float)) and not isinstance(time, bool):
+            signals["sample_time"] = f"{float(time)!r} s"
+        else:
+            signals["time"] = Signal.of(cast("Signal | str", time))._table("time")
+        entry = source._table("command")
+        if hold is not None:
+            entry["hold"] = hold
+        signals["command" if role == "torque" else role] = entry
+        signals["motor"] = Signal.of(motor)._table("motor")
+        if speed is not None:
+            signals["speed"] = Signal.of(speed)._table("speed")
+        if tips:
+            if isinstance(tips, (str, Signal)):
+                raise InputError("tips is a list of signals", 'give it as in tips=["alpha:rad"]')
+            signals["tips"] = [Signal.of(tip)._table("tip") for tip in tips]
+        if run is not None:
+            signals["run"] = run
+        tables: dict[str, object] = {"signals": signals}
+        unknown = [key for key in drive if key not in _DRIVE]
+        if unknown:
+            raise TypeError(f"Campaign has no argument {unknown[0]!r}; constants of the drive are {', '.join(_DRIVE)}")
+        if drive:
+            tables["drive"] = {key: _constant(key, value, role) for key, value in drive.items()}
+        if mgl is not None:
+            tables["load"] = {"gravity": True, "mgl": _with_unit(mgl, "N*m")}
+        elif gravity:
+            tables["load"] = {"gravity": True}
+        analysis = {"skip": skip, "window": window}
+        if any(value is not None for value in analysis.values()):
+            tables["analysis"] = {k: _with_unit(v, "s") for k, v in analysis.items() if v is not None}
+        self._tables = tables
+        self._logs: list[tuple[str, Log]] = _named(runs)
+        self._path: FilePath | None = None
+        self._native: Native | None = None
+
+    @classmethod
+    def load(cls, path: Path) -> Campaign:
+        """Read a campaign.toml and its logs.
+
+        Parameters
+        ----------
+        path : path
+            The campaign.toml.
+
+        Returns
+        -------
+        Campaign
+            The campaign.
+
+        Raises
+        ------
+        FileError
+            If a file cannot be read.
+        InputError
+            If a description or a log cannot be used.
+        """
+        made = cls.__new__(cls)
+        made._tables, made._logs = {}, []
+        made._path = FilePath(path)
+        made._native = Native.of_file(os.fspath(path))
+        return made
+
+    def save(self, path: Path) -> None:
+        """Write a campaign.toml, with which the command and `load` read the same campaign.
+
+        Parameters
+        ----------
+        path : path
+            The new file. It is not overwritten.
+
+        Raises
+        ------
+        InputError
+            If a run is a table in memory.
+        FileError
+            If the file exists or cannot be written.
+        """
+        target = FilePath(path)
+        if self._path is not None:
+            raise InputError(f"the campaign was read from {self._path}", "copy that file")
+        in_memory = [name for name, log in self._logs if not is_path(log)]
+        if in_memory:
+            raise InputError(
+                f"the run {in_memory[0]!r} is a table in memory, which a campaign.toml cannot name",
+                "write the table as CSV or Parquet first, and give its path",
+            )
+        folder = target.parent.resolve()
+        text = self._text(lambda file: os.path.relpath(FilePath(file).resolve(), folder))
+        try:
+            with open(target, "x", encoding="utf-8") as file:
+                file.write(text)
+        except OSError as error:
+            raise FileError(f"{target}: {error.strerror}", "give another path") from error
+
+    @property
+    def runs(self) -> tuple[Run, ...]:
+        """The runs as they are identified: evenly sampled, in SI units, with names."""
+        return tuple(_run(entry) for entry in self._read().runs())
+
+    @property
+    def tips(self) -> tuple[str, ...]:
+        """Names of the points of the arm."""
+        return tuple(self._read().tips())
+
+    def like(self, runs: Log | Sequence[Log] | Mapping[str, Log]) -> Campaign:
+        """Make a campaign of other logs with the same columns, units and drive.
+
+        Parameters
+        ----------
+        runs : Log or sequence of Log
+            The other logs.
+
+        Returns
+        -------
+        Campaign
+            The campaign of these logs.
+        """
+        made = Campaign.__new__(Campaign)
+        made._tables, made._path, made._native = self._tables, None, None
+        made._logs = _named(runs)
+        if self._path is not None:
+            if len(made._logs) != 1 or not is_path(made._logs[0][1]):
+                raise InputError(
+                    "a campaign that was read from a campaign.toml takes one other log, a path",
+                    "make the campaign with Campaign(...) for several logs or tables in memory",
+                )
+            made._path = self._path
+            made._native = Native.of_file(os.fspath(self._path), os.fspath(cast("Path", made._logs[0][1])))
+        return made
+
+    def __repr__(self) -> str:
+        if self._path is not None:
+            return f"Campaign.load({os.fspath(self._path)!r})"
+        names = ", ".join(name for name, _ in self._logs[:3])
+        more = ", ..." if len(self._logs) > 3 else ""
+        return f"<Campaign of {len(self._logs)} logs: {names}{more}>"
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        return (_restored, (self._tables, self._logs, self._path))
+
+    def _text(self, file: Any = os.fspath) -> str:
+        """Write the campaign.toml."""
+        lines = []
+        for table, content in self._tables.items():
+            lines.append(f"[{table}]")
+            lines += [f"{key} = {toml(value)}" for key, value in cast("Mapping[str, object]", content).items()]
+        for name, log in self._logs:
+            named = file(cast("Path", log)) if is_path(log) else name
+            lines += ["[[runs]]", f"file = {toml(named)}"]
+            if is_path(log) and name != os.fspath(cast("Path", log)):
+                lines.append(f"name = {toml(name)}")
+        return "\n".join(lines) + "\n"
+
+    def _read(self) -> Native:
+        if self._native is None:
+            memory: list[tuple[str, Columns]] = [
+                (name, columns(log, name)) for name, log in self._logs if not is_path(log)
+            ]
+            self._native = Native.of_text("campaign", self._text(), memory)
+        return self._native
+
+
+def _restored(tables: dict[str, object], logs: list[tuple[str, Log]], path: FilePath | None) -> Campaign:
+    made = Campaign.__new__(Campaign)
+    made._tables, made._logs, made._path, made._native = tables, logs, path, None
+    if path is not None:
+        only = os.fspath(cast("Path", logs[0][1])) if logs else None
+        made._native = Native.of_file(os.fspath(path), only)
+    return made
+
+
+def _run(entry: dict[str, Any]) -> Run:
+    tips = {key[len("tip ") :]: value for key, value in entry.items() if key.startswith("tip ")}
+    return Run(entry["name"], entry["sample_time_s"], entry["time"], entry["command"], entry["motor"], tips)
+
+
+def _named(runs: Any) -> list[tuple[str, Log]]:
+    """Give the logs with their names. A mapping of names to arrays is one log, one to logs are several."""
+    if isinstance(runs, Mapping):
+        values = list(runs.values())
+        if values and all(is_path(log) or isinstance(log, Mapping) or hasattr(log, "columns") for log in values):
+            return [(str(name), log) for name, log in runs.items()]
+    logs = several(runs)
+    tables = sum(not is_path(log) for log in logs)
+    names, count = [], 0
+    for log in logs:
+        if is_path(log):
+            names.append(os.fspath(log))  # type: ignore[arg-type]
+        else:
+            count += 1
+            names.append("table" if tables == 1 else f"table {count}")
+    return list(zip(names, logs, strict=True))
+
+
+def _with_unit(value: str | float, unit: str) -> str:
+    return value if isinstance(value, str) else f"{float(value)!r} {unit}"
+
+
+#: Units of the input, for a torque constant that is a number.
+_PER = {"current": "N*m/A", "voltage": "N*m/V"}
+_SI = {
+    "current_limit": "A",
+    "voltage_limit": "V",
+    "resistance": "ohm",
+    "back_emf": "V*s/rad",
+}
+
+
+def _constant(key: str, value: str | float, role: str) -> object:
+    if isinstance(value, os.PathLike):
+        return os.fspath(value)
+    if isinstance(value, (int, float)) and not isinstance(value, bool):
+        unit = _PER.get(role) if key == "torque_constant" else _SI.get(key)
+        return float(value) if unit is None else f"{float(value)!r} {unit}"
+    return value

@@ -1,0 +1,101 @@
+"""Exceptions."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+if TYPE_CHECKING:
+    from ._finding import Finding
+    from ._lissom import Pending
+    from ._result import Result
+
+
+class LissomError(Exception):
+    """Any error of lissom.
+
+    Parameters
+    ----------
+    message : str
+        What was found, with file, row and column.
+    hint : str
+        What to do about it; empty if nothing is known.
+
+    Attributes
+    ----------
+    hint : str
+        What to do about it; empty if nothing is known.
+    """
+
+    hint: str
+
+    def __init__(self, message: str, hint: str = "") -> None:
+        super().__init__(message)
+        self.hint = hint
+
+    def __str__(self) -> str:
+        message = str(self.args[0]) if self.args else ""
+        return f"{message}\nhint: {self.hint}" if self.hint else message
+
+    def __reduce__(self) -> tuple[object, ...]:
+        return (type(self), (self.args[0] if self.args else "", self.hint))
+
+
+class InputError(LissomError, ValueError):
+    """A log, a description or an argument cannot be used."""
+
+
+class FileError(LissomError, OSError):
+    """A file cannot be opened, read or written."""
+
+
+class RefusedError(LissomError, ValueError):
+    """The logs do not determine a parameter that was required.
+
+    Parameters
+    ----------
+    message : str
+        Which parameters are refused.
+    hint : str
+        What to do about it.
+    findings : tuple of Finding
+        The findings that give the reasons.
+
+    Attributes
+    ----------
+    findings : tuple of Finding
+        The findings that give the reasons.
+    """
+
+    findings: tuple[Finding, ...]
+
+    def __init__(self, message: str, hint: str = "", findings: tuple[Finding, ...] = ()) -> None:
+        super().__init__(message, hint)
+        self.findings = findings
+
+    def __reduce__(self) -> tuple[object, ...]:
+        return (type(self), (self.args[0] if self.args else "", self.hint, self.findings))
+
+
+class Interrupted(KeyboardInterrupt):
+    """Ctrl-C while logs are identified; `result` is the best result so far.
+
+    Parameters
+    ----------
+    pending : object
+        The work, which ends soon.
+    """
+
+    def __init__(self, pending: Pending | None = None) -> None:
+        super().__init__("interrupted; `.result` is the best result so far")
+        self._pending = pending
+        self._result: Result | None = None
+
+    @property
+    def result(self) -> Result | None:
+        """The best result so far. Waits until the work has ended, which takes about a second."""
+        if self._pending is not None:
+            from ._result import Result
+
+            pending, self._pending = self._pending, None
+            self._result = Result.from_bytes(pending.wait())
+        return self._result

@@ -1,0 +1,196 @@
+"""Functions of the package."""
+
+from __future__ import annotations
+
+import json
+import os
+from collections.abc import Callable, Mapping, Sequence
+from typing import TYPE_CHECKING, Any, Literal, cast
+
+import numpy as np
+from numpy.typing import NDArray
+
+from . import _lissom
+from ._campaign import Campaign
+from ._errors import InputError, Interrupted, RefusedError
+from ._result import Result, refused
+from ._tables import Log, Path, columns, is_path
+from ._toml import toml, toml_key
+from ._validation import Validation
+
+if TYPE_CHECKING:
+    import pandas as pd
+
+
+def identify(
+    campaign: Campaign | Path,
+    *,
+    effort: Literal["quick", "normal", "thorough"] = "normal",
+    require: Sequence[str] = (),
+    window: float | None = None,
+    time_limit: float | None = None,
+    threads: int | None = None,
+    progress: Callable[[str, float], None] | None = None,
+) -> Result:
+    """Identify a drive, and the beam on it, from the logs of a campaign.
+
+    Other threads run meanwhile. Ctrl-C ends the work; the exception has the best result so far.
+
+    Parameters
+    ----------
+    campaign : Campaign or path
+        The campaign, or a campaign.toml.
+    effort : {'quick', 'normal', 'thorough'}
+        Effort of the search: none (a fraction of a second), about 10 s, or minutes on two cores. It is a count of
+        evaluations, so that a result does not depend on the machine.
+    require : sequence of str
+        Keys that must be identified, as ``friction.coulomb``, ``drive.inertia_kg_m2`` or ``beam``.
+    window : float, optional
+        Length of the window of the regression [s]; chosen from the data if absent.
+    time_limit : float, optional
+        Time after which the search ends with the best result so far [s].
+    threads : int, optional
+        Number of threads; all cores if absent.
+    progress : callable, optional
+        Called about every 50 ms with the name of the stage and the share of the work that is done.
+
+    Returns
+    -------
+    Result
+        The estimates with standard errors, and the findings.
+
+    Raises
+    ------
+    InputError
+        If no run moves, or an argument is not valid.
+    RefusedError
+        If the logs do not determine a parameter of `require`.
+    Interrupted
+        After Ctrl-C.
+    """
+    if not isinstance(campaign, Campaign):
+        campaign = Campaign.load(campaign)
+    if threads is not None and threads < 1:
+        raise InputError(f"threads is {threads}; at least one is needed")
+    for name, seconds in (("window", window), ("time_limit", time_limit)):
+        if seconds is not None and not seconds > 0:
+            raise InputError(f"{name} is {seconds} s; it must be positive")
+    data, stopped = _lissom.identify(campaign._read(), effort, window, time_limit, threads, progress)
+    if stopped is not None:
+        error, pending = stopped
+        if isinstance(error, KeyboardInterrupt):
+            raise Interrupted(pending) from None
+        raise error
+    result = Result(cast("bytes", data))
+    missing = refused(result, require)
+    if missing:
+        affecting = tuple(f for f in result.findings if f.severity == "refusal")
+        raise RefusedError(
+            f"the logs do not determine {', '.join(missing)}",
+            "; ".join(dict.fromkeys(f.hint for f in affecting if f.hint)),
+            affecting,
+        )
+    return result
+
+
+def validate(
+    result: Result,
+    runs: Log | Sequence[Log] | Campaign,
+    *,
+    like: Campaign | None = None,
+    window: float | None = None,
+    horizon: float | None = None,
+) -> Validation:
+    """Predict torque and motion of a log from which a result was not identified.
+
+    Parameters
+    ----------
+    result : Result
+        The result.
+    runs : Campaign, Log or sequence of Log
+        The other logs: a campaign of them, or logs with the columns of `like`.
+    like : Campaign, optional
+        A campaign with the columns, units and drive of the logs.
+    window : float, optional
+        Length of the window with which both torques are averaged [s].
+    horizon : float, optional
+        Time over which motion is predicted [s]; found if absent.
+
+    Returns
+    -------
+    Validation
+        What is left, and findings.
+    """
+    if isinstance(runs, Campaign):
+        campaign = runs
+    elif like is None:
+        raise InputError("nothing describes the columns of the logs", "give like=, the campaign of the result")
+    else:
+        campaign = like.like(runs)
+    return Validation(_lissom.validate(bytes(result).decode(), campaign._read(), window, horizon))
+
+
+def inspect(log: Log, *, header_row: int | None = None, skip_rows: int = 0) -> pd.DataFrame:
+    """Describe the channels of a log of any supported format, or of a table in memory.
+
+    Parameters
+    ----------
+    log : Log
+        A path, or a table.
+    header_row : int, optional
+        Row of a text with the names, from 1; found if absent.
+    skip_rows : int
+        Rows at the top of a text that do not count.
+
+    Returns
+    -------
+    pandas.DataFrame
+        A row for each channel: name, unit, values, missing, min, max, step, bits, role and why. ``attrs`` has the whole
+        description, as ``lissom inspect --json`` writes it.
+    """
+    import pandas as pd
+
+    if is_path(log):
+        text = _lissom.inspect(os.fspath(cast("Path", log)), header_row, skip_rows)
+    else:
+        text = _lissom.inspect_columns("table", columns(log, "table"))
+    described = json.loads(text)["logs"][0]
+    frame = pd.DataFrame(described["channels"])
+    roles = {role["channel"]: role for role in described["roles"]}
+    frame["role"] = [roles.get(number, {}).get("role") for number in frame["number"]]
+    frame["why"] = [roles.get(number, {}).get("reason") for number in frame["number"]]
+    frame.attrs.update(described)
+    return frame
+
+
+def simulate(
+    arm: Path | Mapping[str, Any], plan: Path | Mapping[str, Any], *, seed: int = 0
+) -> dict[str, dict[str, NDArray[np.float64]]]:
+    """Simulate the experiments of a plan on a virtual arm whose joint sticks and slips.
+
+    Parameters
+    ----------
+    arm : path or mapping
+        An arm.toml with the table [rig], or its content.
+    plan : path or mapping
+        A plan.toml, or its content.
+    seed : int
+        Added to the seeds of the plan: other noise of the sensors.
+
+    Returns
+    -------
+    dict
+        For each run its columns: ``t`` [s], ``i`` [A], ``theta_m`` [rad], ``theta_1`` [rad] and so on, as a Campaign takes
+        them.
+    """
+    if not 0 <= seed < 2**64:
+        raise InputError(f"seed is {seed}; it must be from 0 to 2**64 - 1")
+    arm_path, arm_text = _file_or_text(arm)
+    plan_path, plan_text = _file_or_text(plan)
+    return dict(_lissom.simulate(seed, arm_path, arm_text, plan_path, plan_text))
+
+
+def _file_or_text(source: Path | Mapping[str, Any]) -> tuple[str | None, str | None]:
+    if isinstance(source, Mapping):
+        return None, "".join(f"{toml_key(str(key))} = {toml(value)}\n" for key, value in source.items())
+    return os.fspath(source), None

@@ -1,0 +1,46 @@
+"""Results in notebooks."""
+
+from __future__ import annotations
+
+from html import escape
+from typing import TYPE_CHECKING
+
+if TYPE_CHECKING:
+    from ._lissom import _Row as Row
+    from ._result import Result
+
+_CELL = "text-align:left"
+
+
+def result_html(result: Result, rows: list[Row]) -> str:
+    """Write the table and the findings of a result as HTML, without a script.
+
+    Parameters
+    ----------
+    result : Result
+        The result.
+    rows : list
+        Its parameters.
+
+    Returns
+    -------
+    str
+        HTML.
+    """
+    lines = ["<table><thead><tr>"]
+    lines += [f'<th style="{_CELL}">{head}</th>' for head in ("parameter", "value", "± 1.96 σ", "unit", "warnings")]
+    lines.append("</tr></thead><tbody>")
+    for _, name, unit, found, warnings in rows:
+        value, margin = ("refused", "") if found is None else (f"{found[0]:.6g}", f"{1.96 * found[1]:.2g}")
+        cells = (name, value, margin, unit, ", ".join(warnings))
+        lines.append("<tr>" + "".join(f'<td style="{_CELL}">{escape(cell)}</td>' for cell in cells) + "</tr>")
+    lines.append("</tbody></table>")
+    matter = [finding for finding in result.findings if finding.severity != "info"]
+    if matter:
+        lines.append("<ul>")
+        for finding in matter:
+            run = f"{escape(finding.run)}: " if finding.run else ""
+            hint = f"<br><i>{escape(finding.hint)}</i>" if finding.hint else ""
+            lines.append(f"<li><b>{finding.severity}</b> [{escape(finding.code)}] {run}{escape(finding.message)}{hint}</li>")
+        lines.append("</ul>")
+    return "".join(lines)

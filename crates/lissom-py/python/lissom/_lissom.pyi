@@ -1,0 +1,48 @@
+from collections.abc import Callable, Sequence
+from typing import TypeAlias, final
+
+import numpy as np
+from numpy.typing import NDArray
+
+_Columns: TypeAlias = list[tuple[str, NDArray[np.float64] | list[str]]]
+_Row: TypeAlias = tuple[str, str, str, tuple[float, float, list[float]] | None, list[str]]
+
+__version__: str
+
+@final
+class Campaign:
+    @staticmethod
+    def of_text(name: str, text: str, logs: list[tuple[str, _Columns]], only: str | None = None) -> Campaign: ...
+    @staticmethod
+    def of_file(path: str, only: str | None = None) -> Campaign: ...
+    def runs(self) -> list[dict[str, object]]: ...
+    def tips(self) -> list[str]: ...
+
+@final
+class Pending:
+    def wait(self) -> bytes: ...
+
+def command(arguments: Sequence[str]) -> int: ...
+def export(result: str, target: str, into: str | None = None, joint: str | None = None) -> list[tuple[str, bytes]]: ...
+def identify(
+    campaign: Campaign,
+    effort: str,
+    window_s: float | None = None,
+    time_limit_s: float | None = None,
+    threads: int | None = None,
+    progress: Callable[[str, float], None] | None = None,
+) -> tuple[bytes | None, tuple[BaseException, Pending] | None]: ...
+def inspect(path: str, header_row: int | None = None, skip_rows: int = 0) -> str: ...
+def inspect_columns(name: str, columns: _Columns) -> str: ...
+def parameters(result: str) -> list[_Row]: ...
+def result_text(result: str) -> str: ...
+def simulate(
+    seed: int,
+    arm_path: str | None = None,
+    arm_text: str | None = None,
+    plan_path: str | None = None,
+    plan_text: str | None = None,
+) -> list[tuple[str, dict[str, NDArray[np.float64]]]]: ...
+def validate(
+    result: str, campaign: Campaign, window_s: float | None = None, horizon_s: float | None = None
+) -> bytes: ...

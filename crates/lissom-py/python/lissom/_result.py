@@ -1,0 +1,453 @@
+"""Results of an identification."""
+
+from __future__ import annotations
+
+import functools
+import json
+import os
+from collections.abc import Mapping, Sequence
+from pathlib import Path as FilePath
+from types import MappingProxyType
+from typing import TYPE_CHECKING, Any, Literal, TypeVar
+
+import numpy as np
+from numpy.typing import NDArray
+
+from . import _lissom
+from ._errors import FileError, InputError
+from ._estimate import Estimate
+from ._finding import Finding
+from ._tables import Path
+from ._units import unit_of
+
+if TYPE_CHECKING:
+    import control  # type: ignore[import-untyped,unused-ignore]
+    import pandas as pd
+
+
+class Result:
+    """What the logs of a drive say: friction, inertia, modes, responses, and findings.
+
+    A result is immutable; its bytes are those of the file result.json, whose keys it has. An estimate that the logs do not
+    determine is None, and a finding gives the reason.
+
+    Parameters
+    ----------
+    data : bytes
+        A result.json.
+    """
+
+    def __init__(self, data: bytes) -> None:
+        self._data = bytes(data)
+        try:
+            self._root: dict[str, Any] = json.loads(self._data)
+        except ValueError as error:
+            raise InputError(f"the data are no result: {error}") from None
+        # Says what is missing if the JSON is of something else.
+        rows = _lissom.parameters(self._text)
+        self._listed = {
+            key: None if found is None else Estimate(found[0], found[1], (found[2][0], found[2][1]), unit)
+            for key, _, unit, found, _ in rows
+        }
+        self._rows = rows
+
+    @classmethod
+    def from_bytes(cls, data: bytes) -> Result:
+        """Make a result of the bytes of a result.json.
+
+        Parameters
+        ----------
+        data : bytes
+            The content of the file.
+
+        Returns
+        -------
+        Result
+            The result.
+        """
+        return cls(data)
+
+    @classmethod
+    def load(cls, path: Path) -> Result:
+        """Read a result.json.
+
+        Parameters
+        ----------
+        path : path
+            The file, written by `save` or by ``lissom identify --json``.
+
+        Returns
+        -------
+        Result
+            The result.
+        """
+        try:
+            data = FilePath(path).read_bytes()
+        except OSError as error:
+            raise FileError(f"{os.fspath(path)}: {error.strerror}", "check the path") from error
+        try:
+            return cls(data)
+        except InputError as error:
+            raise InputError(f"{os.fspath(path)}: {error.args[0]}", error.hint) from None
+
+    def save(self, path: Path) -> None:
+        """Write a result.json, whole or not at all.
+
+        Parameters
+        ----------
+        path : path
+            The file; one that exists is replaced.
+        """
+        _write(path, self._data)
+
+    @property
+    def friction(self) -> Mapping[str, Estimate | None]:
+        """Friction: ``coulomb_a``, ``coulomb_nm``, ``forward_nm``, ``viscous_nm_s_per_rad`` and others; None if refused."""
+        return self._estimates("friction")
+
+    @property
+    def drive(self) -> Mapping[str, Estimate | None]:
+        """The drive: ``inertia_kg_m2`` (``inertia_kg`` of a linear axis)."""
+        return self._estimates("drive")
+
+    @property
+    def gravity(self) -> Mapping[str, Estimate | None]:
+        """Gravity of an unbalanced load; empty unless the campaign asks for it."""
+        return self._estimates("gravity")
+
+    @property
+    def beam(self) -> Mapping[str, Estimate | None]:
+        """The beam except its modes: ``coupling_nm_per_rad``."""
+        return self._estimates("beam")
+
+    @property
+    def modes(self) -> tuple[Mapping[str, Estimate | None], ...]:
+        """Modes with the motor clamped, ascending: ``natural_frequency_rad_s``, ``damping_ratio``."""
+        modes = self._root["beam"]["modes"]
+        return tuple(MappingProxyType(_estimates(mode)) for mode in modes)
+
+    @functools.cached_property
+    def findings(self) -> tuple[Finding, ...]:
+        """What the logs do not determine, and what to know about the estimates."""
+        return tuple(Finding._of(entry) for entry in self._root["findings"])
+
+    @property
+    def method(self) -> str | None:
+        """The method that gave friction, inertia and coupling, all of them together."""
+        found: str | None = self._root["from"]
+        return found
+
+    @functools.cached_property
+    def frequency(self) -> NDArray[np.float64]:
+        """Frequencies of the responses [rad/s], shape (n,)."""
+        omega: NDArray[np.float64] = np.asarray(self._root["frequency_response"]["omega_rad_s"], dtype=np.float64)
+        return _fixed(omega)
+
+    @functools.cached_property
+    def response(self) -> Mapping[str, NDArray[np.complex128]]:
+        """Frequency responses, shape (n,), NaN where there is none.
+
+        ``motor_raw`` is motor per command as a linear tool sees it, ``motor_corrected`` without friction; tips by their
+        names are tip per motor.
+        """
+        found = {}
+        for name, entry in self._responses():
+            re, im = (np.array(entry[part], dtype=np.float64) for part in ("re", "im"))
+            found[name] = _fixed(re + 1j * im)
+        return MappingProxyType(found)
+
+    @functools.cached_property
+    def response_std(self) -> Mapping[str, NDArray[np.float64]]:
+        """Standard errors of the responses by the same names, shape (n,)."""
+        found = {name: _fixed(np.array(entry["std"], dtype=np.float64)) for name, entry in self._responses()}
+        return MappingProxyType(found)
+
+    @functools.cached_property
+    def response_vouched_for(self) -> NDArray[np.bool_]:
+        """Whether a response at a frequency is corrected with confidence, shape (n,)."""
+        vouched: NDArray[np.bool_] = _fixed(np.asarray(self._root["frequency_response"]["vouched_for"], dtype=np.bool_))
+        return vouched
+
+    @property
+    def ok(self) -> bool:
+        """Whether nothing that was asked for is refused."""
+        return not any(finding.severity == "refusal" for finding in self.findings)
+
+    def warnings(self, key: str) -> tuple[str, ...]:
+        """Give the codes of the warnings that affect a parameter.
+
+        Parameters
+        ----------
+        key : str
+            A key of `keys`.
+
+        Returns
+        -------
+        tuple of str
+            Codes of findings.
+        """
+        for row in self._rows:
+            if row[0] == key:
+                return tuple(row[4])
+        raise KeyError(self._no_key(key))
+
+    def keys(self) -> tuple[str, ...]:
+        """Give the keys of all parameters, in the order of the tables.
+
+        Returns
+        -------
+        tuple of str
+            Keys, as ``friction.coulomb_nm``.
+        """
+        return tuple(self._listed)
+
+    def __getitem__(self, key: str) -> Estimate | None:
+        if key in self._listed:
+            return self._listed[key]
+        value: Any = self._root
+        for part in key.replace("[", ".").replace("]", "").split("."):
+            try:
+                value = value[int(part)] if isinstance(value, list) else value[part]
+            except (KeyError, IndexError, ValueError, TypeError):
+                raise KeyError(self._no_key(key)) from None
+        if value is None:
+            return None
+        if not _is_estimate(value):
+            raise KeyError(f"{key} is no estimate; to_dict() has everything")
+        return Estimate._of(value, unit_of(key))
+
+    def __iter__(self) -> Any:
+        return iter(self._listed)
+
+    def __contains__(self, key: object) -> bool:
+        return key in self._listed
+
+    def __len__(self) -> int:
+        return len(self._listed)
+
+    def to_dict(self) -> dict[str, Any]:
+        """Give the content of result.json.
+
+        Returns
+        -------
+        dict
+            A new one for each call.
+        """
+        content: dict[str, Any] = json.loads(self._data)
+        return content
+
+    def to_frame(self) -> pd.DataFrame:
+        """Make a table of the parameters with pandas.
+
+        Returns
+        -------
+        pandas.DataFrame
+            A row for each: key, name, value, std, ci_low, ci_high, unit, refused, warnings.
+        """
+        import pandas as pd
+
+        rows = []
+        for key, name, unit, found, warnings in self._rows:
+            value, std, (low, high) = found if found is not None else (np.nan, np.nan, (np.nan, np.nan))
+            rows.append((key, name, value, std, low, high, unit, found is None, ", ".join(warnings)))
+        heading = ["key", "name", "value", "std", "ci_low", "ci_high", "unit", "refused", "warnings"]
+        return pd.DataFrame(rows, columns=heading)
+
+    def to_control(self, output: str = "motor", kind: Literal["ss", "tf", "frd"] = "ss") -> Any:
+        """Make a model of python-control: linear, without Coulomb friction, input the command.
+
+        Parameters
+        ----------
+        output : str
+            ``"motor"``, or the name of a tip. As a transfer function, a tip is per motor angle; as a state space all outputs
+            are per command.
+        kind : {'ss', 'tf', 'frd'}
+            State space of the identified arm with all outputs if `output` is ``"motor"``; transfer function; or the
+            frequency response data, corrected for friction.
+
+        Returns
+        -------
+        control.StateSpace, control.TransferFunction or control.FrequencyResponseData
+            The model.
+        """
+        from ._control import to_control
+
+        model: control.StateSpace = to_control(self, output, kind)
+        return model
+
+    def to_mjcf(self, joint: str | None = None, into: Path | None = None) -> str:
+        """Write a model of MuJoCo.
+
+        Parameters
+        ----------
+        joint : str, optional
+            The joint of `into` that gets armature, damping and frictionloss.
+        into : path, optional
+            An MJCF file; without it, a whole model is written.
+
+        Returns
+        -------
+        str
+            The XML.
+        """
+        return self._exported("mjcf", into, joint)[0][1].decode()
+
+    def to_urdf(self, joint: str, into: Path) -> str:
+        """Write friction and damping into a joint of a URDF.
+
+        Parameters
+        ----------
+        joint : str
+            The joint.
+        into : path
+            A URDF file.
+
+        Returns
+        -------
+        str
+            The XML.
+        """
+        return self._exported("urdf", into, joint)[0][1].decode()
+
+    def to_mat(self, path: Path) -> None:
+        """Write a MATLAB file with state space, transfer functions and responses.
+
+        Parameters
+        ----------
+        path : path
+            The new file.
+        """
+        _write(path, self._exported("mat")[0][1])
+
+    def to_script(self, language: Literal["python", "m"] = "python") -> str:
+        """Write a script that makes the models: for python-control, or for MATLAB and Octave.
+
+        Parameters
+        ----------
+        language : {'python', 'm'}
+            The language.
+
+        Returns
+        -------
+        str
+            The script.
+        """
+        return self._exported(language)[0][1].decode()
+
+    def to_c(self, folder: Path) -> list[FilePath]:
+        """Write C code of the friction feed-forward.
+
+        Parameters
+        ----------
+        folder : path
+            Where the header and the source go; made if it does not exist.
+
+        Returns
+        -------
+        list of path
+            The files.
+        """
+        made = FilePath(folder)
+        made.mkdir(parents=True, exist_ok=True)
+        files = self._exported("c")
+        for name, data in files:
+            _write(made / name, data)
+        return [made / name for name, _ in files]
+
+    def __repr__(self) -> str:
+        return _lissom.result_text(self._text)
+
+    def _repr_html_(self) -> str:
+        from ._html import result_html
+
+        return result_html(self, self._rows)
+
+    def __eq__(self, other: object) -> bool:
+        return self._data == other._data if isinstance(other, Result) else NotImplemented
+
+    def __hash__(self) -> int:
+        return hash(self._data)
+
+    def __bytes__(self) -> bytes:
+        return self._data
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        return (Result, (self._data,))
+
+    @property
+    def _text(self) -> str:
+        return self._data.decode()
+
+    def _estimates(self, table: str) -> Mapping[str, Estimate | None]:
+        return MappingProxyType(_estimates(self._root[table] or {}))
+
+    def _responses(self) -> list[tuple[str, dict[str, Any]]]:
+        table = self._root["frequency_response"]
+        motor = [(name, table[name]) for name in ("motor_raw", "motor_corrected") if table.get(name)]
+        return motor + [(tip["name"], tip) for tip in table["tips"]]
+
+    def _exported(self, target: str, into: Path | None = None, joint: str | None = None) -> list[tuple[str, bytes]]:
+        if (into is None) != (joint is None):
+            raise InputError("`joint` and `into` are given together, or neither of them")
+        return _lissom.export(self._text, target, None if into is None else os.fspath(into), joint)
+
+    def _no_key(self, key: str) -> str:
+        return f"{key}; the keys are {', '.join(self._listed)}"
+
+
+def _is_estimate(value: object) -> bool:
+    return isinstance(value, dict) and {"value", "std", "ci95"} <= set(value)
+
+
+def _estimates(table: dict[str, Any]) -> dict[str, Estimate | None]:
+    return {
+        key: Estimate._of(value, unit_of(key))
+        for key, value in table.items()
+        if value is None or _is_estimate(value)
+    }
+
+
+_Array = TypeVar("_Array", bound="NDArray[Any]")
+
+
+def _fixed(array: _Array) -> _Array:
+    array.flags.writeable = False
+    return array
+
+
+def _write(path: Path, data: bytes) -> None:
+    """Write a file whole or not at all."""
+    target = FilePath(path)
+    part = target.with_name(f".{target.name}.{os.getpid()}.part")
+    try:
+        try:
+            part.write_bytes(data)
+            os.replace(part, target)
+        finally:
+            part.unlink(missing_ok=True)
+    except OSError as error:
+        raise FileError(f"{target}: {error.strerror}", "check the folder and its permissions") from error
+
+
+def refused(result: Result, keys: Sequence[str]) -> list[str]:
+    """Give those of the keys whose estimates are refused.
+
+    Parameters
+    ----------
+    result : Result
+        A result.
+    keys : sequence of str
+        Keys of parameters, or tables such as ``friction``.
+
+    Returns
+    -------
+    list of str
+        The refused ones.
+    """
+    missing = []
+    for key in keys:
+        listed = [name for name in result if name == key or name.startswith((key + ".", key + "_", key + "["))]
+        missing += [name for name in listed if result[name] is None]
+        if not listed and result[key] is None:
+            missing.append(key)
+    return missing

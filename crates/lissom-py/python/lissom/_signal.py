@@ -1,0 +1,90 @@
+"""A signal of a log: its column and its unit."""
+
+from __future__ import annotations
+
+import os
+from dataclasses import dataclass
+from typing import Literal
+
+from ._errors import InputError
+
+
+@dataclass(frozen=True)
+class Signal:
+    """A signal: which column of a log it is, and its unit.
+
+    Wherever a signal is expected, the text ``"COLUMN:UNIT"`` stands for ``Signal("COLUMN", "UNIT")``, as in ``"q:deg"``.
+
+    Parameters
+    ----------
+    column : str or int
+        Name of the column, or its number from 1.
+    unit : str
+        Unit of the values, such as ``"rad"``, ``"deg"``, ``"rpm"``, ``"A"``, ``"mA"``, ``"counts/4096 rev"``; ``"1"`` for a
+        command or tip of unknown unit.
+    hold : {'measured', 'sampled'}
+        For a command: a sensor's value, or constant between samples. Other signals have none.
+    scale : float
+        The reading is ``scale * value`` in `unit`; negative if the sensor counts the other way.
+    radius : str or float or None
+        For a tip in metres on a rotary axis: distance to the joint, as ``"250 mm"``, or in metres.
+    quantity : {'angle', 'speed', 'deflection', 'acceleration', 'goal'} or None
+        What the signal is, if it is not the usual of its role.
+    file : path or None
+        A log of its own, with a clock of its own.
+    name : str or None
+        Name of a tip in results; the column if None.
+    """
+
+    column: str | int
+    unit: str
+    hold: Literal["measured", "sampled"] = "measured"
+    scale: float = 1.0
+    radius: str | float | None = None
+    quantity: Literal["angle", "speed", "deflection", "acceleration", "goal"] | None = None
+    file: str | os.PathLike[str] | None = None
+    name: str | None = None
+
+    @classmethod
+    def of(cls, value: Signal | str) -> Signal:
+        """Make a signal of a text ``"COLUMN:UNIT"``.
+
+        Parameters
+        ----------
+        value : Signal or str
+            A signal, or such a text.
+
+        Returns
+        -------
+        Signal
+            The signal.
+        """
+        if isinstance(value, Signal):
+            return value
+        if not isinstance(value, str):
+            raise InputError(
+                f"a signal is a Signal or a text COLUMN:UNIT, not {value!r}", 'give it as in "q:deg"'
+            )
+        column, colon, unit = value.rpartition(":")
+        if not colon or not column or not unit:
+            raise InputError(
+                f"the signal {value!r} has no unit", f'give it with its unit, as in "{value.strip(":")}:rad"'
+            )
+        return cls(column, unit)
+
+    def _table(self, role: str) -> dict[str, object]:
+        """Give its keys in a campaign.toml."""
+        table: dict[str, object] = {"column": self.column, "unit": self.unit}
+        if role == "tip":
+            table["name"] = self.name if self.name is not None else str(self.column)
+        if role == "command":
+            table["hold"] = self.hold
+        if self.scale != 1.0:
+            table["scale"] = float(self.scale)
+        if self.radius is not None:
+            table["radius"] = self.radius if isinstance(self.radius, str) else f"{float(self.radius)!r} m"
+        if self.quantity is not None:
+            table["quantity"] = self.quantity
+        if self.file is not None:
+            table["file"] = os.fspath(self.file)
+        return table

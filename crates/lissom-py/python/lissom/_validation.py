@@ -1,0 +1,75 @@
+"""How well a result predicts another log."""
+
+from __future__ import annotations
+
+import functools
+import json
+from typing import Any
+
+from ._finding import Finding
+
+
+class Validation:
+    """How well a result predicts another log.
+
+    Parameters
+    ----------
+    data : bytes
+        What ``lissom validate --json`` writes.
+    """
+
+    def __init__(self, data: bytes) -> None:
+        self._data = bytes(data)
+        self._root: dict[str, Any] = json.loads(self._data)
+
+    @property
+    def torque_left(self) -> float | None:
+        """Root mean square of logged minus predicted torque, relative to the logged one; None if it is not predicted."""
+        torque = self._root["torque"]
+        return None if torque is None else float(torque["relative_error"])
+
+    @property
+    def torque_expected(self) -> float | None:
+        """The same as it would be if the result were exactly right; None if unknown."""
+        torque = self._root["torque"]
+        return None if torque is None else torque["relative_error_expected"]
+
+    @property
+    def residuals(self) -> tuple[dict[str, Any], ...]:
+        """Residual of each channel, motor first: measured minus predicted motion."""
+        return tuple(json.loads(self._data)["residuals"])
+
+    @functools.cached_property
+    def findings(self) -> tuple[Finding, ...]:
+        """Findings about the estimates."""
+        return tuple(Finding._of(entry) for entry in self._root["findings"])
+
+    @property
+    def ok(self) -> bool:
+        """Whether no finding refuses the result."""
+        return not any(finding.severity == "refusal" for finding in self.findings)
+
+    def to_dict(self) -> dict[str, Any]:
+        """Give everything that ``lissom validate --json`` writes.
+
+        Returns
+        -------
+        dict
+            A new one for each call.
+        """
+        content: dict[str, Any] = json.loads(self._data)
+        return content
+
+    def __eq__(self, other: object) -> bool:
+        return self._data == other._data if isinstance(other, Validation) else NotImplemented
+
+    def __hash__(self) -> int:
+        return hash(self._data)
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        return (Validation, (self._data,))
+
+    def __repr__(self) -> str:
+        torque = self.torque_left
+        shown = "not predicted" if torque is None else f"{100 * torque:.3g} % of the torque is left"
+        return "\n".join([f"<Validation: {shown}>", *(str(finding) for finding in self.findings)])

@@ -1,0 +1,55 @@
+//! Errors as exceptions of the package: `lissom.InputError` and `lissom.FileError`, each with a hint.
+
+use std::error::Error as _;
+
+use lissom::Error;
+use lissom::io::LogError;
+use pyo3::exceptions::PyRuntimeError;
+use pyo3::prelude::*;
+
+/// Module with the classes of exceptions.
+const CLASSES: &str = "lissom._errors";
+
+/// An exception of the class, with its message and what to do about it.
+fn exception(py: Python<'_>, class: &str, message: &str, hint: Option<&str>) -> PyErr {
+    let made = || -> PyResult<Bound<'_, PyAny>> {
+        py.import(CLASSES)?.getattr(class)?.call1((message, hint.unwrap_or_default()))
+    };
+    match made() {
+        Ok(value) => PyErr::from_value(value),
+        Err(error) => error,
+    }
+}
+
+/// An input that cannot be used.
+pub(crate) fn input_error(py: Python<'_>, message: &str, hint: Option<&str>) -> PyErr {
+    exception(py, "InputError", message, hint)
+}
+
+/// A panic of the library, which is a fault of it.
+pub(crate) fn internal_error() -> PyErr {
+    PyRuntimeError::new_err("lissom stopped by a fault of its own; please report it with the input")
+}
+
+/// Whether the cause is that a file cannot be opened, read or written.
+fn is_of_file(error: &Error) -> bool {
+    let Error::File(file) = error else { return false };
+    if matches!(file, lissom::io::Error::Write(_) | lissom::io::Error::Log(LogError::Open { .. })) {
+        return true;
+    }
+    let mut cause = file.source();
+    while let Some(error) = cause {
+        if error.is::<std::io::Error>() {
+            return true;
+        }
+        cause = error.source();
+    }
+    false
+}
+
+/// The exception of any error of the library.
+pub(crate) fn raised(py: Python<'_>, error: impl Into<Error>) -> PyErr {
+    let error = error.into();
+    let class = if is_of_file(&error) { "FileError" } else { "InputError" };
+    exception(py, class, &error.to_string(), error.hint().as_deref())
+}

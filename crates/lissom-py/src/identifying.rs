@@ -1,0 +1,130 @@
+//! Identification of a campaign.
+
+use std::path::Path;
+use std::sync::Arc;
+use std::sync::atomic::{AtomicUsize, Ordering};
+use std::time::Duration;
+
+use lissom::Identify;
+use lissom::identify::{Effort, Interrupt, Stage};
+use lissom::io::{CampaignFile, write};
+use pyo3::prelude::*;
+use pyo3::types::PyBytes;
+
+use crate::campaign::NativeCampaign;
+use crate::errors::input_error;
+use crate::worker::{self, Ended, Outcome};
+
+/// Names of the stages in progress, with the share of all work before each. The search takes most of the time.
+const STAGES: [(&str, f64); 5] = [
+    ("periods and harmonics", 0.0),
+    ("regression", 0.05),
+    ("beam", 0.1),
+    ("output-error method", 0.15),
+    ("responses and models", 0.95),
+];
+/// Index of the search in [`STAGES`].
+const SEARCH: usize = 3;
+
+fn effort_of(name: &str) -> Option<Effort> {
+    match name {
+        "quick" => Some(Effort::Quick),
+        "normal" => Some(Effort::Normal),
+        "thorough" => Some(Effort::Thorough),
+        _ => None,
+    }
+}
+
+fn index(stage: Stage) -> usize {
+    match stage {
+        Stage::Run(..) => 0,
+        Stage::Regression => 1,
+        Stage::Beam => 2,
+        Stage::OutputError => SEARCH,
+        Stage::Responses => 4,
+    }
+}
+
+/// The bytes of a result, or the exception that stopped the work with what ends later.
+type Identified<'py> = (Option<Bound<'py, PyBytes>>, Option<(PyErr, worker::Pending)>);
+
+/// Identifies a campaign: the bytes of its result.json, and nothing; or, if it was stopped, the exception and what ends
+/// later.
+#[pyfunction]
+#[pyo3(signature = (campaign, effort, window_s=None, time_limit_s=None, threads=None, progress=None))]
+pub(crate) fn identify<'py>(
+    py: Python<'py>,
+    campaign: &NativeCampaign,
+    effort: &str,
+    window_s: Option<f64>,
+    time_limit_s: Option<f64>,
+    threads: Option<usize>,
+    progress: Option<Bound<'py, PyAny>>,
+) -> PyResult<Identified<'py>> {
+    let Some(effort) = effort_of(effort) else {
+        let message = format!("effort is \"{effort}\", and not quick, normal or thorough");
+        return Err(input_error(py, &message, None));
+    };
+    let limit = time_limit_s.and_then(|s| Duration::try_from_secs_f64(s).ok());
+    let interrupt = limit.map_or_else(Interrupt::default, Interrupt::after);
+    let reached = Arc::new(AtomicUsize::new(0));
+    let work = {
+        let (file, interrupt, reached) =
+            (Arc::clone(&campaign.file), interrupt.clone(), Arc::clone(&reached));
+        move || {
+            let work = || identified(&file, effort, window_s, interrupt, &reached);
+            in_threads(threads, work)
+        }
+    };
+    let show = |py: Python<'py>| {
+        let Some(progress) = &progress else { return Ok(()) };
+        let stage = reached.load(Ordering::Relaxed).min(STAGES.len() - 1);
+        let (name, begins) = STAGES[stage];
+        let most = effort.most_evaluations().max(1) as f64;
+        let done = match stage {
+            SEARCH => (interrupt.evaluations() as f64 / most).min(1.0),
+            _ => 0.0,
+        };
+        let ends = STAGES.get(stage + 1).map_or(1.0, |next| next.1);
+        progress.call1((name, begins + done * (ends - begins)))?;
+        py.check_signals()
+    };
+    match worker::run(py, &interrupt, work, show)? {
+        Ended::Done(bytes) => {
+            if let Some(progress) = progress {
+                progress.call1(("done", 1.0))?;
+            }
+            Ok((Some(bytes), None))
+        }
+        Ended::Stopped(error, pending) => Ok((None, Some((error, pending)))),
+    }
+}
+
+/// The text of the result, the same as the command writes.
+fn identified(
+    file: &CampaignFile,
+    effort: Effort,
+    window_s: Option<f64>,
+    interrupt: Interrupt,
+    reached: &AtomicUsize,
+) -> Outcome {
+    let mut identify = Identify::of_file(file).effort(effort).interrupt(interrupt);
+    if let Some(window_s) = window_s {
+        identify = identify.window_s(window_s);
+    }
+    let reach = |stage| reached.store(index(stage), Ordering::Relaxed);
+    let mut found = identify.progress(reach).run()?;
+    if let Some(arm) = file.described_arm()? {
+        found = found.compared_with(&arm);
+    }
+    Ok(write::json_text(Path::new("result"), &found.file())?)
+}
+
+/// Runs work with so many threads; with all of the machine if the number is not given or they cannot be had.
+fn in_threads(threads: Option<usize>, work: impl FnOnce() -> Outcome + Send) -> Outcome {
+    let pool = threads.and_then(|n| rayon::ThreadPoolBuilder::new().num_threads(n).build().ok());
+    match pool {
+        Some(pool) => pool.install(work),
+        None => work(),
+    }
+}

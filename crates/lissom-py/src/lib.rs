@@ -1,0 +1,51 @@
+//! The extension module `lissom._lissom`: what the Python package `lissom` calls. Arrays and texts in, arrays and JSON out;
+//! the package makes its classes of them.
+
+#![expect(
+    clippy::needless_pass_by_value,
+    reason = "arguments of Python functions are values of their own"
+)]
+
+mod campaign;
+mod columns;
+mod command;
+mod errors;
+mod exporting;
+mod identifying;
+mod inspecting;
+mod reading_results;
+mod simulating;
+mod validating;
+mod worker;
+
+use pyo3::prelude::*;
+
+/// The module. The interpreter lock is released while a function works.
+#[pymodule]
+mod _lissom {
+    #[pymodule_export]
+    use crate::campaign::NativeCampaign;
+    #[pymodule_export]
+    use crate::command::command;
+    #[pymodule_export]
+    use crate::exporting::export;
+    #[pymodule_export]
+    use crate::identifying::identify;
+    #[pymodule_export]
+    use crate::inspecting::{inspect, inspect_columns};
+    #[pymodule_export]
+    use crate::reading_results::{parameters, result_text};
+    #[pymodule_export]
+    use crate::simulating::simulate;
+    #[pymodule_export]
+    use crate::validating::validate;
+    #[pymodule_export]
+    use crate::worker::Pending;
+
+    use super::{Bound, PyModule, PyModuleMethods as _, PyResult};
+
+    #[pymodule_init]
+    fn init(module: &Bound<'_, PyModule>) -> PyResult<()> {
+        module.add("__version__", env!("CARGO_PKG_VERSION"))
+    }
+}

@@ -1,0 +1,33 @@
+//! A `result.json` as a list of parameters and as text.
+
+use lissom::io::{ParameterList, ResultFile};
+use pyo3::prelude::*;
+
+use crate::errors::raised;
+
+/// What errors call the text of a result.
+const RESULT: &str = "result";
+
+/// A parameter: key, name, unit, value with standard error and 95 % interval or nothing if it is refused, and the codes of
+/// the warnings that affect it.
+type Row = (String, String, String, Option<(f64, f64, [f64; 2])>, Vec<String>);
+
+/// The parameters of a result, in the order of the tables.
+#[pyfunction]
+pub(crate) fn parameters(py: Python<'_>, result: &str) -> PyResult<Vec<Row>> {
+    let list = ParameterList::of_text(RESULT, result)
+        .map_err(|error| raised(py, lissom::io::Error::from(error)))?;
+    let row = |p: lissom::io::ListedParameter| {
+        let estimate = p.estimate.map(|e| (e.value, e.std, e.ci95));
+        (p.key, p.name, p.unit, estimate, p.warnings)
+    };
+    Ok(list.parameters.into_iter().map(row).collect())
+}
+
+/// The result as a table with its findings.
+#[pyfunction]
+pub(crate) fn result_text(py: Python<'_>, result: &str) -> PyResult<String> {
+    let file = ResultFile::of_text(RESULT, result)
+        .map_err(|error| raised(py, lissom::io::Error::from(error)))?;
+    Ok(lissom::ResultText(&file).to_string())
+}

@@ -1,0 +1,192 @@
+"""Campaigns of files and of tables in memory, and what is wrong with them."""
+
+from __future__ import annotations
+
+import datetime
+import pickle
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pandas as pd
+import polars as pl
+import pyarrow as pa
+import pytest
+from conftest import SIGNALS
+
+import lissom
+
+ROWS = 2000
+T = np.arange(ROWS) * 1e-3
+COLUMNS = {"t": T, "i": np.sin(9 * T), "q": np.sin(5 * T)}
+ROLES: dict[str, Any] = {"time": "t:s", "motor": "q:rad", "current": "i:A"}
+
+
+def motor(log: Any, **more: Any) -> Any:
+    """The motor's angle as the campaign has it."""
+    (run,) = lissom.Campaign(log, **{**ROLES, **more}).runs
+    return run.motor
+
+
+TABLES = {
+    "mapping": COLUMNS,
+    "lists": {name: list(values) for name, values in COLUMNS.items()},
+    "pandas": pd.DataFrame(COLUMNS),
+    "pandas nullable": pd.DataFrame(COLUMNS).convert_dtypes(),
+    "pandas pyarrow": pd.DataFrame(COLUMNS).convert_dtypes(dtype_backend="pyarrow"),
+    "pandas index": pd.DataFrame(COLUMNS).set_index("t"),
+    "polars": pl.DataFrame(COLUMNS),
+    "pyarrow": pa.table(COLUMNS),
+    "structured": np.rec.fromarrays(list(COLUMNS.values()), names="t,i,q"),
+    "strided": {name: np.repeat(values, 2)[::2] for name, values in COLUMNS.items()},
+    "reversed": {name: values[::-1].copy()[::-1] for name, values in COLUMNS.items()},
+    "big endian": {name: values.astype(">f8") for name, values in COLUMNS.items()},
+    "objects": {name: values.astype(object) for name, values in COLUMNS.items()},
+    "masked": {name: np.ma.array(values) for name, values in COLUMNS.items()},
+}
+
+
+@pytest.mark.parametrize("kind", TABLES)
+def test_tables_of_every_kind_give_the_same(kind: str) -> None:
+    assert np.array_equal(motor(TABLES[kind]), COLUMNS["q"])
+
+
+def test_a_matrix_has_columns_by_number() -> None:
+    matrix = np.stack(list(COLUMNS.values()), axis=1)
+    signals = {"time": lissom.Signal(1, "s"), "current": lissom.Signal(2, "A"), "motor": lissom.Signal(3, "rad")}
+    assert np.array_equal(motor(matrix, **signals), COLUMNS["q"])
+
+
+STAMPS = np.datetime64("2026-03-29T00:59:59.5") + (T * 1e9).round().astype("timedelta64[ns]")
+TIMES = {
+    "numpy": {**COLUMNS, "t": STAMPS},
+    "durations": {**COLUMNS, "t": (T * 1e9).round().astype("timedelta64[ns]")},
+    "pandas index": pd.DataFrame(COLUMNS, index=pd.DatetimeIndex(STAMPS, name="t")).drop(columns="t"),
+    # One hour is skipped here, half a second after the first stamp.
+    "time zone": pd.DataFrame({**COLUMNS, "t": pd.to_datetime(STAMPS, utc=True).tz_convert("Europe/Berlin")}),
+    "time zone index": pd.DataFrame(
+        COLUMNS, index=pd.to_datetime(STAMPS, utc=True).tz_convert("Europe/Berlin").rename("t")
+    ).drop(columns="t"),
+    "polars": pl.DataFrame({**COLUMNS, "t": STAMPS}),
+    "python": {**COLUMNS, "t": [datetime.datetime(2026, 1, 1) + datetime.timedelta(microseconds=int(k)) for k in (T * 1e6).round()]},
+}
+
+
+@pytest.mark.parametrize("kind", TIMES)
+def test_times_are_seconds_from_the_first(kind: str) -> None:
+    (run,) = lissom.Campaign(TIMES[kind], **ROLES).runs
+    assert run.sample_time_s == pytest.approx(1e-3, rel=1e-9) and len(run.motor) == ROWS
+
+
+def test_arrays_are_copied() -> None:
+    columns = {name: values.copy() for name, values in COLUMNS.items()}
+    campaign = lissom.Campaign(columns, **ROLES)
+    first = campaign.runs[0].motor.copy()
+    columns["q"][:] = 0.0
+    assert np.array_equal(campaign.runs[0].motor, first)
+
+
+def test_missing_values_are_gaps_and_many_are_an_error() -> None:
+    few = {**COLUMNS, "q": np.where(np.arange(ROWS) == 700, np.nan, COLUMNS["q"])}
+    assert len(motor(few)) in (ROWS - 1, ROWS)
+    with pytest.raises(lissom.InputError, match='row 1, column "q": "inf" is not a finite'):
+        motor({**COLUMNS, "q": np.where(np.arange(ROWS) % 3 == 0, np.inf, COLUMNS["q"])})
+    with pytest.raises(lissom.InputError, match="table"):
+        motor({**COLUMNS, "q": np.full(ROWS, np.nan)})
+
+
+def test_words_name_the_runs() -> None:
+    words = ["up"] * (ROWS // 2) + ["down"] * (ROWS // 2)
+    frame = pd.DataFrame({**COLUMNS, "trial": words})
+    names = [run.name for run in lissom.Campaign(frame, run="trial", **ROLES).runs]
+    assert names == ["table trial up", "table trial down"]
+
+
+@pytest.mark.parametrize(
+    ("log", "message"),
+    [
+        ({**COLUMNS, "q": COLUMNS["q"][:-1]}, 'different numbers of rows: .*"q" 1999'),
+        ({**COLUMNS, "q": COLUMNS["q"] + 1j}, 'column "q" is complex'),
+        ({**COLUMNS, "q": np.zeros((ROWS, 2))}, 'column "q" has 2 dimensions'),
+        ({**COLUMNS, "q": [1.0, object()] * (ROWS // 2)}, 'column "q", row 2: .* is no number'),
+        ({"t": T, "i": T}, 'there is no column "q"'),
+        ({}, "no columns"),
+        (np.zeros(5), "two dimensions"),
+        (7, "a int is not a log"),
+        ([], "no run"),
+        ({**COLUMNS, "t": T[::-1].copy()}, "time"),
+        ({**COLUMNS, "q": np.array(["a"] * ROWS)}, "number"),
+        (pd.DataFrame(np.zeros((3, 2)), columns=["t", "t"]), "several columns are called t"),
+    ],
+)
+def test_wrong_tables_are_named(log: Any, message: str) -> None:
+    with pytest.raises(lissom.InputError, match=message):
+        motor(log)
+
+
+@pytest.mark.parametrize(
+    ("arguments", "error", "message"),
+    [
+        ({"current": None}, lissom.InputError, "given: none"),
+        ({"voltage": "v:V"}, lissom.InputError, "given: current and voltage"),
+        ({"motor": "q"}, lissom.InputError, "has no unit"),
+        ({"motor": 3}, lissom.InputError, "COLUMN:UNIT"),
+        ({"motor": "q:furlong"}, lissom.InputError, "furlong"),
+        ({"tips": "q:rad"}, lissom.InputError, "tips is a list"),
+        ({"torque": None, "wheels": 4}, TypeError, "no argument 'wheels'"),
+        ({"gear_ratio": -3.0}, lissom.InputError, "gear_ratio"),
+        ({"torque_constant": "0.1 kg"}, lissom.InputError, "torque_constant"),
+    ],
+)
+def test_wrong_descriptions_are_named(arguments: Any, error: Any, message: str) -> None:
+    with pytest.raises(error, match=message):
+        motor(COLUMNS, **arguments)
+
+
+def test_a_sample_time_replaces_stamps() -> None:
+    columns = {name: values for name, values in COLUMNS.items() if name != "t"}
+    (run,) = lissom.Campaign(columns, **{**ROLES, "time": 2e-3}).runs
+    assert run.sample_time_s == 2e-3
+
+
+def test_names_with_any_character(tmp_path: Path) -> None:
+    names = {'a "b" \\ c\u007f\n': "q", "ü::x": "i"}
+    columns = {"t": T, **{name: COLUMNS[of] for name, of in names.items()}}
+    first, second = names
+    campaign = lissom.Campaign(columns, time="t:s", motor=lissom.Signal(first, "rad"), current=lissom.Signal(second, "A"))
+    assert np.array_equal(campaign.runs[0].motor, COLUMNS["q"])
+    with pytest.raises(lissom.InputError, match="characters"):
+        lissom.Campaign(columns, time="t:s", motor=lissom.Signal("\ud800", "rad"), current="i:A").runs
+
+
+def test_campaigns_are_saved_and_pickled(tmp_path: Path, campaign: lissom.Campaign) -> None:
+    copied = pickle.loads(pickle.dumps(campaign))
+    assert [run.name for run in copied.runs] == [run.name for run in campaign.runs]
+    with pytest.raises(lissom.InputError, match="table in memory"):
+        campaign.save(tmp_path / "campaign.toml")
+    pd.DataFrame(COLUMNS).to_csv(tmp_path / "log.csv", index=False)
+    on_disk = lissom.Campaign(tmp_path / "log.csv", gravity=True, skip=0.1, **ROLES)
+    (tmp_path / "sub").mkdir()
+    on_disk.save(tmp_path / "sub" / "campaign.toml")
+    loaded = lissom.Campaign.load(tmp_path / "sub" / "campaign.toml")
+    assert np.array_equal(loaded.runs[0].motor, on_disk.runs[0].motor)
+    assert pickle.loads(pickle.dumps(loaded)).runs[0].name == loaded.runs[0].name
+    with pytest.raises(lissom.FileError, match="exists"):
+        on_disk.save(tmp_path / "sub" / "campaign.toml")
+    other = loaded.like(tmp_path / "log.csv")
+    assert np.array_equal(other.runs[0].motor, loaded.runs[0].motor)
+
+
+def test_inspect_shows_channels_and_roles(tmp_path: Path) -> None:
+    frame = lissom.inspect({"t [s]": T, "current [A]": COLUMNS["i"], "position": COLUMNS["q"]})
+    assert list(frame["role"]) == ["time", "current", "motor"]
+    assert list(frame["unit"])[:2] == ["s", "A"]
+    pd.DataFrame(COLUMNS).to_parquet(tmp_path / "log.parquet")
+    assert list(lissom.inspect(tmp_path / "log.parquet")["name"]) == ["t", "i", "q"]
+
+
+def test_tips_and_logs_of_their_own(logs: dict[str, dict[str, Any]]) -> None:
+    tip = lissom.Signal("theta_m", "rad", name="end")
+    campaign = lissom.Campaign(logs, tips=[tip], **SIGNALS)
+    assert campaign.tips == ("end",)
+    assert np.array_equal(campaign.runs[0].tips["end"], campaign.runs[0].motor)

@@ -1,0 +1,123 @@
+"""Results: keys, units, copies, tables, and models of other libraries."""
+
+from __future__ import annotations
+
+import json
+import pickle
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+
+import lissom
+from lissom._units import unit_of
+
+
+def test_keys_and_units_are_those_of_the_table(result: lissom.Result) -> None:
+    table = result.to_frame()
+    assert list(table["key"]) == list(result.keys()) == list(result)
+    for key, unit in zip(table["key"], table["unit"], strict=True):
+        assert unit_of(key) == unit, key
+    assert result["friction.coulomb_nm"] == result.friction["coulomb_nm"]
+    assert "friction.coulomb_nm" in result and len(result) == len(table)
+    methods = result["methods.regression.coulomb_nm"]
+    assert methods is not None and methods.unit == "N·m"
+    for wrong in ("friction.coulomb", "friction", "beam.modes[7].damping_ratio", "methods.regression.rows"):
+        with pytest.raises(KeyError):
+            result[wrong]
+
+
+def test_a_result_is_its_bytes(result: lissom.Result, tmp_path: Path) -> None:
+    copied = pickle.loads(pickle.dumps(result))
+    assert copied == result and hash(copied) == hash(result) and bytes(copied) == bytes(result)
+    result.save(tmp_path / "result.json")
+    assert lissom.Result.load(tmp_path / "result.json") == result
+    assert result.to_dict() == json.loads(bytes(result))
+    with pytest.raises(TypeError):
+        result.friction["coulomb_nm"] = None  # type: ignore[index]
+    with pytest.raises(ValueError, match="read-only"):
+        result.frequency[0] = 1.0
+
+
+def test_text_and_html_have_every_parameter(result: lissom.Result) -> None:
+    text, html = repr(result), result._repr_html_()
+    for name in ("Coulomb friction", "viscous friction", "inertia"):
+        assert name in text and name in html
+    assert "<script" not in html
+
+
+def test_html_shows_names_of_logs_as_text(result: lissom.Result) -> None:
+    content = result.to_dict()
+    content["findings"][0] |= {"severity": "warning", "run": "<script>alert(1)</script>"}
+    html = lissom.Result(json.dumps(content).encode())._repr_html_()
+    assert "<script" not in html and "&lt;script" in html
+
+
+@pytest.mark.parametrize(
+    ("data", "message"), [(b"{", "no result"), (b"{}", 'has no "lissom"|no result'), (b"\xff", "no result")]
+)
+def test_other_files_are_no_results(data: bytes, message: str, tmp_path: Path) -> None:
+    path = tmp_path / "other.json"
+    path.write_bytes(data)
+    with pytest.raises(lissom.InputError) as caught:
+        lissom.Result.load(path)
+    assert str(path) in str(caught.value)
+
+
+def test_a_missing_file_is_an_os_error(tmp_path: Path) -> None:
+    for read in (lissom.Result.load, lissom.Campaign.load, lissom.inspect):
+        with pytest.raises(OSError) as caught:
+            read(tmp_path / "missing.json")
+        assert isinstance(caught.value, lissom.FileError) and "missing.json" in str(caught.value)
+    copied = pickle.loads(pickle.dumps(caught.value))
+    assert str(copied) == str(caught.value) and copied.hint == caught.value.hint
+
+
+def test_models_of_python_control(result: lissom.Result) -> None:
+    control = pytest.importorskip("control")
+    omega = 7.0
+    space, transfer = result.to_control(), result.to_control(kind="tf")
+    inertia, viscous = result["drive.inertia_kg_m2"], result["friction.viscous_nm_s_per_rad"]
+    assert inertia is not None and viscous is not None
+    expected = 0.2 / (inertia * (1j * omega) ** 2 + viscous * 1j * omega)
+    assert space(1j * omega) == pytest.approx(expected, rel=1e-9)
+    assert transfer(1j * omega) == pytest.approx(expected, rel=1e-9)
+    data = result.to_control(kind="frd")
+    assert isinstance(data, control.FrequencyResponseData)
+    with pytest.raises(lissom.InputError, match="no output 'tip'"):
+        result.to_control("tip")
+
+
+def test_responses_are_arrays(result: lissom.Result) -> None:
+    assert set(result.response) == set(result.response_std)
+    for name, response in result.response.items():
+        assert response.shape == result.frequency.shape == result.response_std[name].shape
+        assert response.dtype == np.complex128
+
+
+def test_exports(result: lissom.Result, tmp_path: Path) -> None:
+    assert f'frictionloss="{float(result.friction["coulomb_nm"] or 0)!r}"' in result.to_mjcf()
+    robot = tmp_path / "robot.urdf"
+    robot.write_text('<robot><joint name="j" type="revolute"/></robot>')
+    assert "dynamics" in result.to_urdf("j", robot)
+    result.to_mat(tmp_path / "model.mat")
+    assert (tmp_path / "model.mat").read_bytes()[:6] == b"MATLAB"
+    assert [file.name for file in result.to_c(tmp_path / "c")] == ["lissom_feedforward.h", "lissom_feedforward.c"]
+    assert "control" in result.to_script()
+    with pytest.raises(lissom.InputError, match="no joint"):
+        result.to_urdf("k", robot)
+    with pytest.raises(lissom.InputError, match="together"):
+        result.to_mjcf("j")
+
+
+def test_refused_estimates_are_none(logs: Any) -> None:
+    from conftest import SIGNALS
+
+    columns = {key: values[:400] for key, values in logs["run-02"].items()}
+    columns["theta_m"] = np.cumsum(np.full(400, 2e-3))
+    result = lissom.identify(lissom.Campaign(columns, **SIGNALS), effort="quick")
+    assert result.drive["inertia_kg_m2"] is None
+    frame = result.to_frame().set_index("key")
+    assert frame.loc["drive.inertia_kg_m2", "refused"]
+    assert "refused" in repr(result) and "refused" in result._repr_html_()
