@@ -8,6 +8,7 @@ use lissom_core::record::{Axis, CommandQuantity};
 use lissom_core::replay::ModalArm;
 
 use super::export_error::ExportError;
+use super::friction_pair::FrictionPair;
 use crate::io_error::Error;
 use crate::result::{
     FrequencyResponseEntry, ListedParameter, ParameterList, ResultFile, UnitNames,
@@ -30,6 +31,8 @@ pub struct ExportModel {
     pub parameters: Vec<ListedParameter>,
     /// The measured responses; `None` for a description.
     pub responses: Option<FrequencyResponseEntry>,
+    /// Largest speed at which friction was identified \[rad/s\]; `None` if it is unknown.
+    pub speed_most_rad_s: Option<f64>,
 }
 
 /// The model of a `result.json`.
@@ -56,9 +59,11 @@ pub fn export_model_of_text(file: String, text: &str) -> Result<ExportModel, Err
         key: wrong.key,
         expected: wrong.expected,
     })?;
+    let speeds = result.friction.curve.iter().filter_map(|p| p.speed.get(listed.names).copied());
     Ok(ExportModel {
         file,
         names: listed.names,
+        speed_most_rad_s: speeds.fold(None, |most, s| Some(most.map_or(s, |m: f64| m.max(s)))),
         torque_per_command: result.torque_per_command.unwrap_or(1.0),
         tips: entry.tips.iter().map(|tip| tip.name.clone()).collect(),
         arm: found.arm,
@@ -88,6 +93,7 @@ pub fn export_model_of_arm(file: &Path, arm: &Arm) -> Result<ExportModel, Export
         arm: modal,
         parameters: Vec::new(),
         responses: None,
+        speed_most_rad_s: None,
     })
 }
 
@@ -127,8 +133,52 @@ impl ExportModel {
         lines
     }
 
-    /// What a target without friction other than Coulomb and viscous friction cannot carry.
+    /// Coulomb and viscous friction for a target without other friction.
+    pub(super) fn pair(&self) -> FrictionPair {
+        FrictionPair::of(&self.arm, self.speed_most_rad_s)
+    }
+
+    /// What a target with only Coulomb and viscous friction cannot carry, and what its two numbers are.
+    pub(super) fn lost_by_pair(&self) -> Vec<String> {
+        let mut lost = self.lost_at_any_speed();
+        if let Some(fit) = self.pair().fit {
+            let (torque, speed) = (self.torque_unit(), self.names.angle());
+            lost.extend(self.lost_near_rest().map(|near| {
+                format!(
+                    "{near}. Damping and friction are the least-squares line of the whole law from 0 to {:.4e} {speed}/s, \
+                     which differs from it by at most {:.2e} {torque} (at {:.2e} {speed}/s); the law itself has {:.4e} \
+                     {torque} and {:.4e} {torque} per {speed}/s at high speed",
+                    fit.speed_most_rad_s,
+                    fit.error_nm,
+                    fit.error_at_rad_s,
+                    self.arm.coulomb_nm,
+                    self.viscous()
+                )
+            }));
+        }
+        lost
+    }
+
+    /// What a model without friction other than Coulomb and viscous friction does not contain.
     pub(super) fn lost_friction(&self) -> Vec<String> {
+        let mut lost = self.lost_at_any_speed();
+        lost.extend(self.lost_near_rest());
+        lost
+    }
+
+    /// The change of friction near rest, if there is one.
+    fn lost_near_rest(&self) -> Option<String> {
+        let near = self.arm.dry_terms.near_rest?;
+        Some(format!(
+            "change of friction near standstill: {:.4e} {} below about {:.4e} {}/s",
+            near.torque_nm,
+            self.torque_unit(),
+            near.speed_rad_s,
+            self.names.angle()
+        ))
+    }
+
+    fn lost_at_any_speed(&self) -> Vec<String> {
         let arm = &self.arm;
         let [forward, backward] = arm.viscous_nm_s_per_rad;
         let mut lost = Vec::new();
@@ -141,15 +191,6 @@ impl ExportModel {
         }
         if (forward - backward).abs() > 0.0 {
             lost.push(format!("viscous friction by direction: {forward:.4e} and {backward:.4e}"));
-        }
-        if let Some(near) = &arm.dry_terms.near_rest {
-            lost.push(format!(
-                "change of friction near standstill: {:.4e} {} below about {:.4e} {}/s",
-                near.torque_nm,
-                self.torque_unit(),
-                near.speed_rad_s,
-                self.names.angle()
-            ));
         }
         if !arm.dry_terms.ripples.is_empty() {
             lost.push(format!(
@@ -166,7 +207,7 @@ impl ExportModel {
     /// The comment at a joint of a user's model: the origin of the numbers, and what the joint cannot represent.
     pub(super) fn merged_note(&self) -> Vec<String> {
         let mut lines: Vec<String> = self.about().into_iter().take(1).collect();
-        lines.extend(self.lost_friction().iter().map(|lost| format!("Not in this joint: {lost}.")));
+        lines.extend(self.lost_by_pair().iter().map(|lost| format!("Not in this joint: {lost}.")));
         if self.arm.gravity.is_some() {
             lines.push("Not in this joint: gravity of the load.".to_owned());
         }
@@ -181,13 +222,14 @@ impl ExportModel {
         0.5 * (self.arm.viscous_nm_s_per_rad[0] + self.arm.viscous_nm_s_per_rad[1])
     }
 
-    /// Gains of WPILib for a command in volts: kS, kV, kA and kG.
+    /// Gains of WPILib for a command in volts: kS, kV, kA and kG. kS and kV are the pair of the friction law.
     pub(super) fn wpilib(&self) -> Option<[f64; 4]> {
         let volts = self.names.command == CommandQuantity::Voltage;
         let k = self.torque_per_command;
         let gravity = self.arm.gravity.map_or(0.0, |g| g.sine_nm.hypot(g.cosine_nm));
-        let gains =
-            [self.arm.coulomb_nm, self.viscous(), self.arm.inertia_kg_m2, gravity].map(|x| x / k);
+        let pair = self.pair();
+        let gains = [pair.coulomb_nm, pair.viscous_nm_s_per_rad, self.arm.inertia_kg_m2, gravity]
+            .map(|x| x / k);
         volts.then_some(gains)
     }
 

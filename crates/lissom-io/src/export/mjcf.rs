@@ -2,11 +2,10 @@
 
 use std::fmt::Write as _;
 
-use lissom_core::record::Axis;
-
 use super::export_error::ExportError;
 use super::export_model::ExportModel;
-use super::number_text::{number, plain};
+use super::mjcf_text::{end, joint_kind, motor_joint, start};
+use super::number_text::number;
 use super::xml_edit::{joint, of_type, parsed, with_attributes, with_comment};
 
 /// Time step of a whole model [s].
@@ -27,15 +26,13 @@ pub fn mjcf_into(
     model.needs_torque("MuJoCo")?;
     let document = parsed(file, text)?;
     let found = joint(file, &document, name)?;
-    let kind = match model.names.axis {
-        Axis::Rotary => "hinge",
-        Axis::Linear => "slide",
-    };
+    let (kind, _) = joint_kind(model);
     of_type(file, &found, "hinge", &[kind])?;
+    let pair = model.pair();
     let set = [
         ("armature", number(model.arm.inertia_kg_m2)),
-        ("damping", number(model.viscous())),
-        ("frictionloss", number(model.arm.coulomb_nm)),
+        ("damping", number(pair.viscous_nm_s_per_rad)),
+        ("frictionloss", number(pair.coulomb_nm)),
     ];
     let mut about = model.merged_note();
     about.push(
@@ -54,46 +51,18 @@ pub fn mjcf_into(
 pub fn mjcf(model: &ExportModel) -> Result<String, ExportError> {
     model.needs_torque("MuJoCo")?;
     let arm = &model.arm;
-    let (kind, axis) = match model.names.axis {
-        Axis::Rotary => ("hinge", "0 0 1"),
-        Axis::Linear => ("slide", "1 0 0"),
-    };
-    let mut text = String::from("<mujoco model=\"lissom\">\n <!--\n");
-    for line in model.about() {
-        let _ = writeln!(text, "  {}", plain(&line));
-    }
-    for lost in model.lost_friction() {
-        let _ = writeln!(text, "  Not in this model: {}.", plain(&lost));
-    }
-    if arm.gravity.is_some() {
-        text.push_str("  Not in this model: gravity of the load.\n");
-    }
+    let (kind, axis) = joint_kind(model);
+    let mut lines = Vec::new();
     if !arm.at_points_per_s.is_empty() {
-        text.push_str("  Dampers at points are added to the modes; they couple them in the arm.\n");
+        lines.push(
+            "Dampers at points are added to the modes; they couple them in the arm.".to_owned(),
+        );
     }
-    text.push_str(
-        "  MuJoCo's friction is a soft constraint: at rest the joint creeps a little, and a stick ends a few steps earlier\n  \
-         or later than in a joint that really sticks.\n -->\n \
-         <compiler boundmass=\"0\" boundinertia=\"0\"/>\n",
-    );
-    let _ = writeln!(
-        text,
-        " <option timestep=\"{}\" gravity=\"0 0 0\" integrator=\"implicitfast\"/>\n <worldbody>",
-        number(STEP_S)
-    );
+    let mut text = start(model, &lines, STEP_S);
     let light = "<inertial pos=\"0 0 0\" mass=\"1e-9\" diaginertia=\"1e-12 1e-12 1e-12\"/>";
-    let stick = format!(
-        "solreffriction=\"{} 1\" solimpfriction=\"0.99999 0.99999 0.001 0.5 2\"",
-        number(2.0 * STEP_S)
-    );
-    let _ = writeln!(
-        text,
-        "  <body name=\"motor\">{light}\n   <joint name=\"motor\" type=\"{kind}\" axis=\"{axis}\" armature=\"{}\" damping=\"{}\" \
-         frictionloss=\"{}\" {stick}/>\n  </body>",
-        number(arm.inertia_kg_m2),
-        number(model.viscous()),
-        number(arm.coulomb_nm)
-    );
+    let motor = motor_joint(model, STEP_S);
+    let _ = writeln!(text, "  <body name=\"motor\">{light}\n   {motor}");
+    text.push_str("  </body>\n");
     let ratios = arm.damping_ratios();
     for (k, mode) in arm.modes.iter().enumerate() {
         // Dampers at points, to first order, are what the damping ratio has beyond the mode's own dampers.
@@ -124,10 +93,6 @@ pub fn mjcf(model: &ExportModel) -> Result<String, ExportError> {
         }
         text.push_str(" </tendon>\n");
     }
-    let _ = writeln!(
-        text,
-        " <actuator>\n  <motor name=\"command\" joint=\"motor\" gear=\"{}\"/>\n </actuator>\n</mujoco>",
-        number(model.torque_per_command)
-    );
+    text.push_str(&end(model));
     Ok(text)
 }

@@ -5,9 +5,11 @@
 mod c_code;
 mod export_error;
 mod export_model;
+mod friction_pair;
 mod mat_file;
 mod matlab_script;
 mod mjcf;
+mod mjcf_text;
 mod number_text;
 mod python_script;
 mod urdf;

@@ -20,7 +20,8 @@ pub fn urdf_into(
     model.needs_torque("URDF")?;
     let document = parsed(file, text)?;
     let found = joint(file, &document, name)?;
-    let (damping, friction) = (number(model.viscous()), number(model.arm.coulomb_nm));
+    let pair = model.pair();
+    let (damping, friction) = (number(pair.viscous_nm_s_per_rad), number(pair.coulomb_nm));
     let dynamics = found.node.children().find(|n| n.has_tag_name("dynamics"));
     let allowed: &[&str] = match model.names.axis {
         Axis::Rotary => &["revolute", "continuous"],
