@@ -181,3 +181,104 @@ fn a_matlab_file_and_scripts_have_the_model() {
     assert_eq!(code, Some(1));
     assert!(error.contains("--into robot.urdf --joint NAME"), "{error}");
 }
+
+/// A uniform beam with a payload, and a friction law that changes near rest.
+const UNIFORM: &str = r#"
+[beam]
+flexural_rigidity = "1.4 N*m^2"
+mass_per_length = "0.162 kg/m"
+spans = [{ length = "0.5 m" }]
+payload = { mass = "0.1 kg" }
+damping = { mass_proportional = "0.2 1/s", stiffness_proportional = "2e-4 s" }
+[drive]
+inertia = "2e-3 kg*m^2"
+viscous = "5e-2 N*m*s/rad"
+torque_constant = "0.2 N*m/A"
+coulomb = "0.05 N*m"
+rest = { friction = "0.09 N*m", velocity = "0.4 rad/s" }
+"#;
+/// Two masses on spans without mass.
+const TWO: &str = r#"
+[beam]
+flexural_rigidity = "0.9 N*m^2"
+spans = [{ length = "0.2 m", mass = "0.15 kg" }, { length = "0.3 m", mass = "0.1 kg" }]
+damping = { ratios = [0.01, 0.03] }
+[drive]
+inertia = "1e-3 kg*m^2"
+torque_constant = "0.2 N*m/A"
+"#;
+/// Relative error of mass and inertia \[1\]: links without mass have 1e-10 of the beam's each.
+const LINKS: f64 = 1e-8;
+/// Relative error of the tip's flexibility \[1\]: two Gauss points are exact, this is rounding.
+const FLEXIBILITY: f64 = 1e-12;
+
+/// A chain, added up: mass, inertia about the motor's axis, and the tip's flexibility `Σ (L − x)²/k`.
+fn chain(text: &str, length: f64) -> (f64, f64, f64) {
+    let document = roxmltree::Document::parse(text).unwrap();
+    let number = |n: roxmltree::Node<'_, '_>, key: &str| -> Vec<f64> {
+        let words = n.attribute(key).unwrap().split_whitespace();
+        words.map(|w| w.parse().unwrap()).collect()
+    };
+    let (mut mass, mut inertia, mut flexibility) = (0.0, 0.0, 0.0);
+    for body in document.descendants().filter(|n| n.has_tag_name("body")) {
+        let bodies = body.ancestors().filter(|n| n.has_tag_name("body"));
+        let at: f64 = bodies.map(|b| number(b, "pos")[0]).sum();
+        let child = |tag: &str| body.children().find(|n| n.has_tag_name(tag)).unwrap();
+        let (inertial, joint) = (child("inertial"), child("joint"));
+        let centre = at + number(inertial, "pos")[0];
+        let m = number(inertial, "mass")[0];
+        mass += m;
+        inertia += m * centre * centre + number(inertial, "diaginertia")[2];
+        if joint.has_attribute("stiffness") {
+            flexibility += (length - at).powi(2) / number(joint, "stiffness")[0];
+        }
+    }
+    (mass, inertia, flexibility)
+}
+
+#[test]
+fn a_beam_of_known_dimensions_becomes_a_chain_with_its_mass_inertia_and_flexibility() {
+    let folder = tempfile::tempdir().unwrap();
+    let near = |found: f64, wanted: f64, most: f64| {
+        assert!((found / wanted - 1.0).abs() < most, "{found} {wanted}");
+    };
+    let made = |name: &str, arm: &str| {
+        fs::write(folder.path().join("arm.toml"), arm).unwrap();
+        let to = ["export", "arm.toml", "--to", "mjcf", "--out", name];
+        let (code, error) = lissom(folder.path(), &to);
+        assert_eq!(code, Some(0), "{error}");
+        fs::read_to_string(folder.path().join(name)).unwrap()
+    };
+    let (l, mu, payload) = (0.5_f64, 0.162, 0.1);
+    let text = made("uniform.xml", UNIFORM);
+    let (mass, inertia, flexibility) = chain(&text, l);
+    near(mass, mu * l + payload, LINKS);
+    near(inertia, mu * l.powi(3) / 3.0 + payload * l * l, LINKS);
+    near(flexibility, l.powi(3) / (3.0 * 1.4), FLEXIBILITY);
+    assert!(text.contains("<site name=\"mass_1\""), "{text}");
+    // Friction is a line through the whole law, here up to 5 times 0.4 rad/s.
+    let document = roxmltree::Document::parse(&text).unwrap();
+    let motor = document.descendants().find(|n| n.has_tag_name("joint")).unwrap();
+    let loss: f64 = motor.attribute("frictionloss").unwrap().parse().unwrap();
+    let decay = (-5.0_f64).exp();
+    let (m0, m1) = ((1.0 - decay) / 5.0, (1.0 - 6.0 * decay) / 25.0);
+    near(loss, 0.05 + 0.04 * (4.0 * m0 - 6.0 * m1), 1e-9);
+    assert!(
+        text.contains("least-squares line of the whole law from 0 to 2.0000e0 rad/s"),
+        "{text}"
+    );
+
+    let text = made("two.xml", TWO);
+    let (mass, inertia, flexibility) = chain(&text, l);
+    near(mass, 0.25, LINKS);
+    near(inertia, 0.15 * 0.04 + 0.1 * 0.25, LINKS);
+    near(flexibility, l.powi(3) / (3.0 * 0.9), FLEXIBILITY);
+    assert!(text.contains("<site name=\"mass_2\"") && text.contains("mode_1_damper"), "{text}");
+
+    let many = TWO.replace("0.1 kg\" }]", "0.1 kg\", count = 200 }]");
+    fs::write(folder.path().join("arm.toml"), many).unwrap();
+    let to = ["export", "arm.toml", "--to", "mjcf", "--out", "many.xml"];
+    let (code, error) = lissom(folder.path(), &to);
+    assert_eq!(code, Some(1));
+    assert!(error.contains("a beam of 201 spans needs more than 200 hinges"), "{error}");
+}

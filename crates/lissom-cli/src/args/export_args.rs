@@ -41,7 +41,9 @@ Targets:
   python  a script for python-control: transfer function, state space, friction
   m       the same for MATLAB and Octave (package control)
   mat     a MATLAB file with models and responses
-  mjcf    MuJoCo: armature, damping, frictionloss of a joint of --into, or a whole model
+  mjcf    MuJoCo: armature, damping, frictionloss of a joint of --into, or a whole model.
+          ARM: the beam is a chain of hinges with sites at its masses. RESULT: its modes
+          are inertias on the axis, because a result has no dimensions
   urdf    damping and friction of a joint of --into
   c       header and source of a feed-forward of friction and inertia
 Examples:

@@ -4,8 +4,8 @@ use std::path::Path;
 
 use lissom_io::ArmFile;
 use lissom_io::export::{
-    ExportError, ExportModel, c_files, export_model_of_arm, export_model_of_result, mat_file,
-    matlab_script, mjcf, mjcf_into, python_script, urdf_into,
+    ExportError, ExportModel, c_files, export_model_of_arm_file, export_model_of_result, mat_file,
+    matlab_script, mjcf, mjcf_into, mjcf_of_arm_file, python_script, urdf_into,
 };
 use lissom_io::write::Batch;
 
@@ -21,7 +21,6 @@ pub(crate) fn run(args: &ExportArgs) -> Result<ExitCode, Failure> {
         [Some(&args.input), args.into.as_ref()].into_iter().flatten().map(AsRef::as_ref).collect();
     output_guard::guard_inputs(Some(&args.out), &inputs)?;
     output_guard::guard_marked(&args.out, MARK)?;
-    let model = model(&args.input)?;
     let into = args.into.as_deref().zip(args.joint.as_deref());
     if into.is_some() && !matches!(args.to, Target::Mjcf | Target::Urdf) {
         return Err(Failure::Asked(
@@ -29,6 +28,11 @@ pub(crate) fn run(args: &ExportArgs) -> Result<ExitCode, Failure> {
             "leave out --into and --joint",
         ));
     }
+    if args.to == Target::Mjcf && into.is_none() && is_toml(&args.input) {
+        let text = mjcf_of_arm_file(&args.input, &ArmFile::read(&args.input)?)?;
+        return write_one(&args.out, &text);
+    }
+    let model = model(&args.input)?;
     let mut batch = Batch::new();
     let mut written = vec![args.out.display().to_string()];
     match args.to {
@@ -66,6 +70,14 @@ pub(crate) fn run(args: &ExportArgs) -> Result<ExitCode, Failure> {
     Ok(ExitCode::SUCCESS)
 }
 
+fn write_one(out: &Path, text: &str) -> Result<ExitCode, Failure> {
+    let mut batch = Batch::new();
+    batch.file(out, text.as_bytes())?;
+    batch.commit()?;
+    printer::line(&format!("written: {}", out.display()));
+    Ok(ExitCode::SUCCESS)
+}
+
 /// What every exported file has: the copy of a user's model in the comment before the joint.
 const MARK: &str = "by lissom";
 
@@ -74,8 +86,7 @@ fn model(input: &Path) -> Result<ExportModel, Failure> {
     if !is_toml(input) {
         return Ok(export_model_of_result(input)?);
     }
-    let arm = ArmFile::read(input)?.arm(input).map_err(lissom_io::Error::from)?;
-    Ok(export_model_of_arm(input, &arm).map_err(lissom_io::Error::from)?)
+    Ok(export_model_of_arm_file(input, &ArmFile::read(input)?)?)
 }
 
 /// A function that writes the numbers of a joint into a text.

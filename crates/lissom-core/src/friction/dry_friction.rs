@@ -162,6 +162,11 @@ impl DryFriction {
         self.sliding
     }
 
+    /// Friction near rest and ripple.
+    pub fn terms(&self) -> &DryTerms {
+        &self.terms
+    }
+
     /// Whether there is no friction at all.
     pub fn is_zero(&self) -> bool {
         let rest = self.at(0.0, 0.0);

@@ -79,7 +79,7 @@ impl FrictionSpec {
     }
 
     /// Builds the friction of the joint; `sliding` is Coulomb friction at speed.
-    pub(super) fn joint(&self, sliding: Coulomb) -> Result<JointFriction, DriveError> {
+    pub(crate) fn joint(&self, sliding: Coulomb) -> Result<JointFriction, DriveError> {
         if let Some(bristles) = &self.bristles {
             let rest = match &self.rest {
                 Some(rest) => Coulomb::by_direction(rest.forward_nm, rest.backward_nm)?,

@@ -20,6 +20,16 @@ pub enum ExportError {
         /// What is missing.
         reason: &'static str,
     },
+    /// A beam of too many spans for a chain of hinges.
+    #[error("{file}: a beam of {found} spans needs more than {hinges} hinges")]
+    TooManySpans {
+        /// The description.
+        file: String,
+        /// Spans of the beam.
+        found: usize,
+        /// Largest number of hinges.
+        hinges: usize,
+    },
     /// The torque constant is unknown, so nothing is in N·m.
     #[error("{file}: the torque constant is unknown, and {target} needs torques in N·m")]
     NoTorque {
@@ -94,6 +104,10 @@ impl ExportError {
                     "read the findings of the result: they say which run is missing"
                 }
                 Self::Arm { .. } => "give a [drive] and a beam, as the page arm.toml explains",
+                Self::TooManySpans { .. } => {
+                    "describe the beam with fewer spans: a span with mass along it (`density` or `mass_per_length`) needs no \
+                     division"
+                }
                 Self::NoTorque { .. } => {
                     "give torque_constant in [drive] of the campaign, and identify again"
                 }

@@ -33,6 +33,8 @@ pub struct ExportModel {
     pub responses: Option<FrequencyResponseEntry>,
     /// Largest speed at which friction was identified \[rad/s\]; `None` if it is unknown.
     pub speed_most_rad_s: Option<f64>,
+    /// Whether the joint has bristles (LuGre), which the arm does not contain.
+    pub bristles: bool,
 }
 
 /// The model of a `result.json`.
@@ -68,6 +70,7 @@ pub fn export_model_of_text(file: String, text: &str) -> Result<ExportModel, Err
         tips: entry.tips.iter().map(|tip| tip.name.clone()).collect(),
         arm: found.arm,
         parameters: listed.parameters,
+        bristles: false,
         responses: Some(result.frequency_response),
     })
 }
@@ -94,6 +97,7 @@ pub fn export_model_of_arm(file: &Path, arm: &Arm) -> Result<ExportModel, Export
         parameters: Vec::new(),
         responses: None,
         speed_most_rad_s: None,
+        bristles: false,
     })
 }
 
@@ -197,6 +201,9 @@ impl ExportModel {
                 "{} ripple(s) of friction over the travel",
                 arm.dry_terms.ripples.len()
             ));
+        }
+        if self.bristles {
+            lost.push("bristles (LuGre): motion before the joint slips".to_owned());
         }
         if arm.command_lag_s.abs() > 0.0 {
             lost.push(format!("delay of the command: {:.4e} s", arm.command_lag_s));

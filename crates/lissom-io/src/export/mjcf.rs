@@ -4,7 +4,7 @@ use std::fmt::Write as _;
 
 use super::export_error::ExportError;
 use super::export_model::ExportModel;
-use super::mjcf_text::{end, joint_kind, motor_joint, start};
+use super::mjcf_text::{Load, end, joint_kind, motor_joint, start};
 use super::number_text::number;
 use super::xml_edit::{joint, of_type, parsed, with_attributes, with_comment};
 
@@ -52,16 +52,27 @@ pub fn mjcf(model: &ExportModel) -> Result<String, ExportError> {
     model.needs_torque("MuJoCo")?;
     let arm = &model.arm;
     let (kind, axis) = joint_kind(model);
+    let load = Load::of(model);
     let mut lines = Vec::new();
+    if load.is_some() {
+        lines.push(
+            "The body load has the gravity of the load; gravity acts along the x axis, and at angle zero of the motor the load \
+             is where its body is. A part of the motor's inertia is in it, the rest in armature."
+                .to_owned(),
+        );
+    }
     if !arm.at_points_per_s.is_empty() {
         lines.push(
             "Dampers at points are added to the modes; they couple them in the arm.".to_owned(),
         );
     }
-    let mut text = start(model, &lines, STEP_S);
+    let mut text = start(model, &lines, STEP_S, load.as_ref());
     let light = "<inertial pos=\"0 0 0\" mass=\"1e-9\" diaginertia=\"1e-12 1e-12 1e-12\"/>";
-    let motor = motor_joint(model, STEP_S);
+    let motor = motor_joint(model, STEP_S, load.as_ref());
     let _ = writeln!(text, "  <body name=\"motor\">{light}\n   {motor}");
+    if let Some(load) = &load {
+        let _ = writeln!(text, "   {}", load.body());
+    }
     text.push_str("  </body>\n");
     let ratios = arm.damping_ratios();
     for (k, mode) in arm.modes.iter().enumerate() {
