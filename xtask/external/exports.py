@@ -1,6 +1,7 @@
 """What `lissom export` writes, loaded by the programs that it is for: python-control, scipy.io, MuJoCo.
 
-Usage: exports.py LISSOM RESULT FOLDER, with the command, a result.json of the demo, and a folder to write into.
+Usage: exports.py LISSOM RESULT FOLDER, with the command, a result.json of the demo (and its arm.toml beside it), and a
+folder to write into.
 """
 
 import json
@@ -13,6 +14,8 @@ import control
 import mujoco
 import numpy as np
 import scipy.io
+
+import chains
 
 lissom, result_file, folder = sys.argv[1], sys.argv[2], Path(sys.argv[3])
 folder.mkdir(parents=True, exist_ok=True)
@@ -85,3 +88,7 @@ near("MuJoCo mode", 2 * np.pi / period, wanted_omega, 0.02)
 peaks = [angle[a:b].max() for a, b in zip(rising[:-1], rising[1:])]
 decrement = np.mean(np.log(np.array(peaks[:-1]) / np.array(peaks[1:])))
 near("MuJoCo damping ratio (free decay)", decrement / (2 * np.pi), ratio, 0.05)
+
+# Arms of known dimensions: the beam as a chain of hinges. The last two are the arm of the 1989 report.
+figures = Path(__file__).parents[2] / "crates/lissom-cli/src/commands/report_figures/arm.toml"
+chains.check(lissom, folder / "chains", {"demo": Path(result_file).parent / "arm.toml", "report-figures": figures})
