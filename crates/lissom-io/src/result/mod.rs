@@ -79,8 +79,8 @@ pub use read_result::{ListedParameter, PHASE_KEY, ParameterList, read_result};
 pub use result_error::ResultError;
 pub use result_file::{BeamEntry, DriveEntry, ResultFile, RunEntry, RunKindName, SinusoidEntry};
 pub use separability_entry::{
-    DirectionPartEntry, MotionKindName, ParameterCertaintyEntry, PrincipalDirectionEntry,
-    RunEffectEntry, RunShareEntry, RunToAddEntry, SeparabilityEntry,
+    CorrelationEntry, DirectionPartEntry, MotionKindName, ParameterCertaintyEntry,
+    PrincipalDirectionEntry, RunEffectEntry, RunShareEntry, RunToAddEntry, SeparabilityEntry,
 };
 pub use thresholds_file::{BasisName, ThresholdEntry, ThresholdsFile};
 pub use unit_names::UnitNames;

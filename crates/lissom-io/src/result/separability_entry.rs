@@ -1,13 +1,14 @@
 //! The verdict in JSON: which parameters the logs identify.
 
 use lissom_core::identify::{Direction, RunShare, RunToAdd, Separability};
+use lissom_core::information::ArmParameter;
 use lissom_core::plan::PlannedMotion;
 use lissom_core::record::Axis;
 use serde::{Deserialize, Serialize};
 
 use super::channel_names::ArmSourceName;
 use super::estimate_entry::finite;
-use super::unit_keys::{MotionKey, WithUnit};
+use super::unit_keys::{CoulombKey, MotionKey, OffsetKey, Quantity as _, WithUnit};
 use super::unit_names::UnitNames;
 
 /// Which parameters the logs identify. Standard errors are relative to the value of the parameter, for the offset to
@@ -19,6 +20,8 @@ pub struct SeparabilityEntry {
     pub words: Vec<String>,
     /// The method that gave the covariance.
     pub source: ArmSourceName,
+    /// Correlation of the estimates: times both standard errors it is their covariance.
+    pub correlation: CorrelationEntry,
     /// Condition number of the correlation matrix; null if some parameters cannot be separated.
     pub condition: Option<f64>,
     /// All parameters.
@@ -32,6 +35,16 @@ pub struct SeparabilityEntry {
     /// Codes of findings that report effects in the runs that the arm does not have. Standard errors do not include
     /// these effects.
     pub doubted_by: Vec<String>,
+}
+
+/// Correlation of estimates.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+pub struct CorrelationEntry {
+    /// Keys of the estimates in this file, in the order of rows and columns.
+    pub keys: Vec<String>,
+    /// The correlation matrix; null where the logs do not separate an estimate from others.
+    pub matrix: Vec<Vec<Option<f64>>>,
 }
 
 /// The certainty of a parameter.
@@ -143,12 +156,35 @@ impl SeparabilityEntry {
         Self {
             words: found.words(axis),
             source: ArmSourceName::of(found.source),
+            correlation: CorrelationEntry::of(names, found),
             condition: finite(found.condition),
             parameters: known.collect(),
             directions: found.directions.iter().map(PrincipalDirectionEntry::of).collect(),
             runs: found.runs.iter().map(|run| RunShareEntry::of(found, run)).collect(),
             run_to_add: found.run_to_add.as_ref().map(|run| RunToAddEntry::of(names, run)),
             doubted_by: found.doubted_by.iter().map(ToString::to_string).collect(),
+        }
+    }
+}
+
+impl CorrelationEntry {
+    fn of(names: UnitNames, found: &Separability) -> Self {
+        let key = |parameter: ArmParameter| {
+            let friction = |key: Option<String>| format!("friction.{}", key.unwrap_or_default());
+            match parameter {
+                ArmParameter::Coulomb => friction(CoulombKey::keys(names).pop()),
+                ArmParameter::Viscous => friction(Some(names.viscous_key("viscous"))),
+                ArmParameter::Offset => friction(OffsetKey::keys(names).pop()),
+                ArmParameter::Inertia => format!("drive.{}", names.inertia_key()),
+                ArmParameter::Coupling => format!("beam.{}", names.coupling_key("coupling")),
+                ArmParameter::Frequency(k) => format!("beam.modes[{k}].natural_frequency_rad_s"),
+                ArmParameter::Damping(k) => format!("beam.modes[{k}].damping_ratio"),
+            }
+        };
+        let rows = found.correlation.row_iter();
+        Self {
+            keys: found.parameters.iter().map(|known| key(known.parameter)).collect(),
+            matrix: rows.map(|row| row.iter().map(|value| finite(*value)).collect()).collect(),
         }
     }
 }

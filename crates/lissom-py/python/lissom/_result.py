@@ -168,6 +168,43 @@ class Result:
         vouched: NDArray[np.bool_] = _fixed(np.asarray(self._root["frequency_response"]["vouched_for"], dtype=np.bool_))
         return vouched
 
+    def covariance(self, keys: Sequence[str] | None = None) -> tuple[list[str], NDArray[np.float64]]:
+        """Give the covariance of estimates of the accepted solution.
+
+        Parameters
+        ----------
+        keys : sequence of str, optional
+            Keys of parameters; all that have a covariance if absent.
+
+        Returns
+        -------
+        keys : list of str
+            The keys, in the order of rows and columns.
+        matrix : array, shape (n, n)
+            Covariance, in the units of the estimates; its diagonal is the square of the standard errors.
+
+        Raises
+        ------
+        InputError
+            If an estimate is refused, or the method has no covariance of it.
+        """
+        known = (self._root["verdict"] or {"correlation": {"keys": [], "matrix": []}})["correlation"]
+        places = {
+            key: place
+            for place, key in enumerate(known["keys"])
+            if self[key] is not None and known["matrix"][place][place] is not None
+        }
+        wanted = list(places) if keys is None else list(keys)
+        for key in wanted:
+            if self[key] is None:
+                raise InputError(f"{key} is refused", "the findings give the reason")
+            if key not in places:
+                raise InputError(f"there is no covariance of {key}", f"there is one of {', '.join(places)}")
+        rows = [places[key] for key in wanted]
+        std = np.array([self._std(key) for key in wanted])
+        correlation = np.array([[known["matrix"][i][j] for j in rows] for i in rows], dtype=np.float64)
+        return wanted, correlation.reshape(len(rows), len(rows)) * np.outer(std, std)
+
     @property
     def ok(self) -> bool:
         """Whether nothing that was asked for is refused."""
@@ -390,6 +427,10 @@ class Result:
         if (into is None) != (joint is None):
             raise InputError("`joint` and `into` are given together, or neither of them")
         return _lissom.export(self._text, target, None if into is None else os.fspath(into), joint)
+
+    def _std(self, key: str) -> float:
+        found = self[key]
+        return float("nan") if found is None else found.std
 
     def _no_key(self, key: str) -> str:
         return f"{key}; the keys are {', '.join(self._listed)}"

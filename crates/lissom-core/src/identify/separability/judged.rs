@@ -10,6 +10,7 @@ use crate::identify::separability::thresholds::LOST_SHARE;
 use crate::identify::separability::{ParameterCertainty, correlation};
 use crate::information::{ArmParameter, inverse, slopes};
 use crate::record::Campaign;
+use crate::replay::ModalArm;
 
 /// Differences for the slopes of parameters are taken over this many standard errors of a parameter.
 const HALF: f64 = 0.5;
@@ -21,6 +22,8 @@ pub(super) struct Judged {
     pub(super) slopes: DMatrix<f64>,
     /// In shares of the sizes.
     pub(super) covariance: DMatrix<f64>,
+    /// Correlation of the estimates as a result has them: a damping as a damping ratio.
+    correlation: DMatrix<f64>,
     /// Changes of the parameters that the logs do not show, in shares of the sizes, of length one.
     pub(super) lost: Vec<DVector<f64>>,
 }
@@ -32,6 +35,7 @@ impl Judged {
         let arm = &oe.arm;
         let all = ArmParameter::of(arm).into_iter().chain([ArmParameter::Offset]);
         let (mut parameters, mut columns) = (Vec::new(), Vec::new());
+        let mut of_estimates = Vec::new();
         for parameter in all {
             let size = match parameter {
                 ArmParameter::Viscous => (parameter.value(arm) - back_emf).abs(),
@@ -41,13 +45,25 @@ impl Judged {
             let column = slopes(arm, &oe.parameters, &oe.covariance, HALF, of);
             let moved = column.iter().any(|s| *s != 0.0);
             if moved && column.iter().all(|s| s.is_finite()) {
+                of_estimates.push(match parameter {
+                    ArmParameter::Damping(j) => {
+                        let ratio = |a: &ModalArm| a.damping_ratios()[j];
+                        slopes(arm, &oe.parameters, &oe.covariance, HALF, ratio)
+                    }
+                    _ => column.clone(),
+                });
                 parameters.push(parameter);
                 columns.push(column);
             }
         }
-        let slopes = matrix(oe.parameters.len(), &columns);
-        let covariance = slopes.tr_mul(&(&oe.covariance * &slopes));
-        Self { parameters, slopes, covariance, lost: Vec::new() }
+        let of = |columns: &[DVector<f64>]| {
+            let slopes = matrix(oe.parameters.len(), columns);
+            let covariance = slopes.tr_mul(&(&oe.covariance * &slopes));
+            (slopes, covariance)
+        };
+        let (slopes, covariance) = of(&columns);
+        let correlation = correlation(&of(&of_estimates).1);
+        Self { parameters, slopes, covariance, correlation, lost: Vec::new() }
     }
 
     /// Those of a regression in slip phases, with the standard errors that it states.
@@ -99,12 +115,27 @@ impl Judged {
             (found.norm() > 0.0).then(|| found.normalize())
         };
         let lost = terms.lost.iter().filter_map(of_estimates).collect();
-        Self { parameters, slopes, covariance, lost }
+        let correlation = correlation(&covariance);
+        Self { parameters, slopes, covariance, correlation, lost }
     }
 
     pub(super) fn none() -> Self {
         let none = || DMatrix::zeros(0, 0);
-        Self { parameters: Vec::new(), slopes: none(), covariance: none(), lost: Vec::new() }
+        Self {
+            parameters: Vec::new(),
+            slopes: none(),
+            covariance: none(),
+            correlation: none(),
+            lost: Vec::new(),
+        }
+    }
+
+    /// Correlation of the estimates; NaN where the logs do not tell a parameter from others.
+    pub(super) fn correlation(&self) -> DMatrix<f64> {
+        let n = self.parameters.len();
+        DMatrix::from_fn(n, n, |i, j| {
+            if self.is_lost(i) || self.is_lost(j) { f64::NAN } else { self.correlation[(i, j)] }
+        })
     }
 
     /// Whether a parameter takes part in a change that the logs do not show.

@@ -48,6 +48,9 @@ pub struct Separability {
     pub source: ArmSource,
     /// Every parameter; empty where no method has a covariance of those that stand.
     pub parameters: Vec<ParameterCertainty>,
+    /// Correlation of the estimates of the parameters, of a damping as damping ratio; NaN where a parameter cannot be told
+    /// from others. The covariance of two estimates is this times their standard errors.
+    pub correlation: DMatrix<f64>,
     /// Condition of the parameters' correlation matrix; infinite where some cannot be told apart.
     pub condition: f64,
     /// The principal directions of F, least known first.
@@ -112,6 +115,7 @@ impl Separability {
         let found = Self {
             source,
             parameters: judged.known(),
+            correlation: judged.correlation(),
             condition: judged.condition(),
             run_to_add: replay.and_then(|oe| {
                 RunToAdd::of(oe, used, &judged, directions.first().filter(|d| d.std > ALL_SHARP)?)
