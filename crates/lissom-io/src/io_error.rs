@@ -12,6 +12,7 @@ use crate::log::LogError;
 use crate::model::frequency_file::FrequencyError;
 use crate::plan::plan_error::PlanError;
 use crate::responses::ResponseError;
+use crate::result::ComparisonError;
 use crate::result::result_error::ResultError;
 use crate::units::UnitError;
 use crate::write::WriteError;
@@ -53,6 +54,9 @@ pub enum Error {
     /// No campaign can be made of a log and of what the user says about it.
     #[error(transparent)]
     Draft(#[from] DraftError),
+    /// Results cannot be compared.
+    #[error(transparent)]
+    Comparison(#[from] ComparisonError),
     /// A model cannot be exported.
     #[error(transparent)]
     Export(#[from] ExportError),
@@ -75,6 +79,7 @@ impl Error {
             Self::Responses(error) => error.hint(),
             Self::Result(error) => error.hint(),
             Self::Draft(error) => error.hint(),
+            Self::Comparison(error) => error.hint(),
             Self::Export(error) => error.hint(),
             Self::Write(error) => error.hint(),
             // Readers do not create such runs: see [`LogError`] and [`CampaignError`].

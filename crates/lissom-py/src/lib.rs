@@ -9,10 +9,12 @@
 mod campaign;
 mod columns;
 mod command;
+mod comparing;
 mod errors;
 mod exporting;
 mod identifying;
 mod inspecting;
+mod planning;
 mod reading_results;
 mod simulating;
 mod validating;
@@ -28,11 +30,15 @@ mod _lissom {
     #[pymodule_export]
     use crate::command::command;
     #[pymodule_export]
+    use crate::comparing::compare;
+    #[pymodule_export]
     use crate::exporting::export;
     #[pymodule_export]
     use crate::identifying::identify;
     #[pymodule_export]
     use crate::inspecting::{inspect, inspect_columns};
+    #[pymodule_export]
+    use crate::planning::plan;
     #[pymodule_export]
     use crate::reading_results::{parameters, result_text};
     #[pymodule_export]

@@ -11,7 +11,7 @@ use rayon::prelude::*;
 use crate::errors::{input_error, raised};
 
 /// A file, or its text.
-fn text(
+pub(crate) fn text(
     py: Python<'_>,
     path: Option<PathBuf>,
     text: Option<String>,

@@ -58,6 +58,7 @@ macro_rules! from_file {
 from_file!(
     lissom_io::ArmError,
     lissom_io::CampaignError,
+    lissom_io::result::ComparisonError,
     lissom_io::ConfigError,
     lissom_io::FrequencyError,
     lissom_io::LogError,

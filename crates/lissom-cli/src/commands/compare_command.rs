@@ -1,15 +1,15 @@
 //! `lissom compare RESULT RESULT...`: parameters side by side.
 
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 use lissom_io::write::{self, Batch};
+use lissom_io::{ComparedFile, Error, read_result};
 
 use crate::args::compare_args::CompareArgs;
 use crate::args::stdout_name::STDOUT;
 use crate::shared::exit_codes::ExitCode;
 use crate::shared::failure::Failure;
 use crate::shared::output_guard;
-use crate::tasks::result_comparison::{compared, is_result};
 use crate::views::{compare_table, printer};
 
 pub(crate) fn run(args: &CompareArgs) -> Result<ExitCode, Failure> {
@@ -34,4 +34,41 @@ pub(crate) fn run(args: &CompareArgs) -> Result<ExitCode, Failure> {
         compare_table::comparison(&found);
     }
     Ok(ExitCode::SUCCESS)
+}
+
+/// Reads the results and compares them.
+fn compared(files: &[PathBuf]) -> Result<ComparedFile, Failure> {
+    refuse_repeated(files)?;
+    let read = |file: &PathBuf| {
+        let list = read_result(file).map_err(Failure::NoResult)?;
+        Ok::<_, Failure>((file.display().to_string(), list))
+    };
+    let lists = files.iter().map(read).collect::<Result<Vec<_>, _>>()?;
+    Ok(ComparedFile::of(&lists).map_err(Error::from)?)
+}
+
+/// Whether a file is a result of `lissom identify`.
+fn is_result(file: &Path) -> bool {
+    file.is_file() && read_result(file).is_ok()
+}
+
+fn refuse_repeated(files: &[PathBuf]) -> Result<(), Failure> {
+    if let [only] = files {
+        let words = format!("{}: is the only result given", only.display());
+        return Err(Failure::Asked(
+            words,
+            "give two or more: lissom compare before.json after.json",
+        ));
+    }
+    for (i, file) in files.iter().enumerate() {
+        let whole = file.canonicalize().ok();
+        for earlier in &files[..i] {
+            if whole.is_some() && earlier.canonicalize().ok() == whole {
+                let words = format!("{}: is given twice", file.display());
+                let hint = "give results from different logs: only their errors are independent";
+                return Err(Failure::Asked(words, hint));
+            }
+        }
+    }
+    Ok(())
 }

@@ -10,5 +10,4 @@ pub(crate) mod load_study;
 pub(crate) mod mode_shapes;
 pub(crate) mod model_task;
 pub(crate) mod printed_coulomb;
-pub(crate) mod result_comparison;
 pub(crate) mod rig_campaign;

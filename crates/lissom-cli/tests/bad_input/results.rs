@@ -99,8 +99,7 @@ fn results_are_in_different_units() {
         &["a.json", "v.json"],
         "error: results in different units cannot be compared: a.json has a rotary axis and friction in A \
          (no torque constant), v.json has a rotary axis and friction in V (no torque constant)\n\
-         hint: log the same command in every campaign, or give `torque_constant` in [drive] of each, and run \
-         `lissom identify` again",
+         hint: log the same command in every campaign, or give `torque_constant` in [drive] of each, and identify again",
     );
     refuses(
         &bench,

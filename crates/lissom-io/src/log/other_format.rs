@@ -80,7 +80,8 @@ pub(super) fn of_data(
         if let Some(index) = data.channels[*place].values.iter().position(|v| v.is_infinite()) {
             let found = data.channels[*place].values[index].to_string();
             let (file, column) = (file.to_owned(), column.to_string());
-            return Err(LogError::NotFinite { file, row: index + 1, column, found });
+            let error = LogError::NotFinite { file, row: index + 1, column, found };
+            return Err(first.unwrap_or(error));
         }
     }
     let holds: Vec<Hold> = columns.iter().map(|c| c.hold).collect();

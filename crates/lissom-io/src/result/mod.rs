@@ -8,6 +8,7 @@
 mod arm_entry;
 mod arm_numbers;
 mod channel_names;
+mod compare_results;
 mod compared_file;
 mod constant_velocity_entry;
 mod equivalent_file;
@@ -37,6 +38,7 @@ pub use arm_entry::{ArmEntry, ArmGravityEntry, ArmTipEntry, OscillatorEntry};
 pub use channel_names::{
     ArmSourceName, AxisName, DirectionName, FalloffName, MethodName, TipQuantityName,
 };
+pub use compare_results::{CLEAR_STANDARD_ERRORS, ComparisonError};
 pub use compared_file::{
     ComparedFile, ComparedParameterEntry, ComparedResultEntry, ParameterDifferenceEntry,
 };

@@ -15,8 +15,9 @@ from ._campaign import Campaign, Run
 from ._errors import FileError, InputError, Interrupted, LissomError, RefusedError
 from ._estimate import Estimate
 from ._finding import Finding
-from ._functions import identify, inspect, simulate, validate
+from ._functions import compare, identify, inspect, plan, simulate, validate
 from ._lissom import __version__
+from ._plan import Plan
 from ._result import Result
 from ._signal import Signal
 from ._tables import Log
@@ -31,14 +32,17 @@ __all__ = [
     "Interrupted",
     "LissomError",
     "Log",
+    "Plan",
     "RefusedError",
     "Result",
     "Run",
     "Signal",
     "Validation",
     "__version__",
+    "compare",
     "identify",
     "inspect",
+    "plan",
     "simulate",
     "validate",
 ]

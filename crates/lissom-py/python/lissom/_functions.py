@@ -13,6 +13,7 @@ from numpy.typing import NDArray
 from . import _lissom
 from ._campaign import Campaign
 from ._errors import InputError, Interrupted, RefusedError
+from ._plan import Plan
 from ._result import Result, refused
 from ._tables import Log, Path, columns, is_path
 from ._toml import toml, toml_key
@@ -163,8 +164,97 @@ def inspect(log: Log, *, header_row: int | None = None, skip_rows: int = 0) -> p
     return frame
 
 
+def compare(results: Mapping[str, Result] | Sequence[Result]) -> pd.DataFrame:
+    """Compare results of different logs with the first of them.
+
+    Parameters
+    ----------
+    results : mapping of str to Result, or sequence of Result
+        Two or more results of the same kind of drive.
+
+    Returns
+    -------
+    pandas.DataFrame
+        A row for each parameter and each further result: key, name, unit, result, first, value, difference, std of the
+        difference, relative difference, difference in standard errors, and whether it is clear (above 3).
+    """
+    import pandas as pd
+
+    named = results if isinstance(results, Mapping) else {f"result {k + 1}": r for k, r in enumerate(results)}
+    text = _lissom.compare([(name, bytes(result).decode()) for name, result in named.items()])
+    rows = []
+    for parameter in json.loads(text)["parameters"]:
+        first = parameter["values"][0]
+        for name, value, found in zip(list(named)[1:], parameter["values"][1:], parameter["differences"], strict=True):
+            found = found or {"value": None, "std": None, "relative": None, "standard_errors": None, "clear": None}
+            rows.append(
+                {
+                    "key": parameter["key"],
+                    "name": parameter["name"],
+                    "unit": parameter["unit"],
+                    "result": name,
+                    "first": first and first["value"],
+                    "value": value and value["value"],
+                    "difference": found["value"],
+                    "std": found["std"],
+                    "relative": found["relative"],
+                    "standard_errors": found["standard_errors"],
+                    "clear": found["clear"],
+                }
+            )
+    return pd.DataFrame(rows)
+
+
+def plan(
+    arm: Path | Mapping[str, Any],
+    *,
+    precision: float | Mapping[str, float] | None = None,
+    within: float | None = None,
+    travel: float | None = None,
+    bend: float | None = None,
+    reserve: float | None = None,
+    runs: Literal["pair", "sines", "any"] = "pair",
+) -> Plan:
+    """Choose the runs that give a wanted precision in the least time.
+
+    Parameters
+    ----------
+    arm : path or mapping
+        An arm.toml with [drive] and [rig], or its content; rough numbers are enough.
+    precision : float or mapping of str to float, optional
+        Relative standard error of all parameters except damping; or those of ``coulomb``, ``viscous``, ``inertia``,
+        ``coupling``, ``frequency``, ``damping``, ``gravity``, and ``all``.
+    within : float, optional
+        Allowed time of all runs with waiting [s]; 1800 if absent.
+    travel : float, optional
+        Largest angle of the motor [rad]; 1 if absent.
+    bend : float, optional
+        Largest bending of the tips [rad]; 0.5 if absent.
+    reserve : float, optional
+        Share of the current limit that is not used; 0.3 if absent.
+    runs : {'pair', 'sines', 'any'}
+        With a sine and its triple, sines only, or any runs.
+
+    Returns
+    -------
+    Plan
+        The runs, which `simulate` takes, and the expected standard errors.
+    """
+    wanted = {} if precision is None else dict(precision) if isinstance(precision, Mapping) else {"all": precision}
+    for name, share in wanted.items():
+        if not 0 < share < 1:
+            raise InputError(f"the precision of {name} is {share}; it must be between 0 and 1", "0.01 is 1 %")
+    for name, value in (("within", within), ("travel", travel), ("bend", bend)):
+        if value is not None and not 0 < value < float("inf"):
+            raise InputError(f"{name} is {value}; it must be positive")
+    if reserve is not None and not 0 <= reserve < 1:
+        raise InputError(f"reserve is {reserve}; it must be at least 0 and less than 1")
+    made = _lissom.plan(wanted, runs, within, travel, bend, reserve, *_file_or_text(arm))
+    return Plan(*made)
+
+
 def simulate(
-    arm: Path | Mapping[str, Any], plan: Path | Mapping[str, Any], *, seed: int = 0
+    arm: Path | Mapping[str, Any], plan: Path | Mapping[str, Any] | Plan, *, seed: int = 0
 ) -> dict[str, dict[str, NDArray[np.float64]]]:
     """Simulate the experiments of a plan on a virtual arm whose joint sticks and slips.
 
@@ -172,8 +262,8 @@ def simulate(
     ----------
     arm : path or mapping
         An arm.toml with the table [rig], or its content.
-    plan : path or mapping
-        A plan.toml, or its content.
+    plan : path, mapping or Plan
+        A plan.toml, its content, or what `plan` chose.
     seed : int
         Added to the seeds of the plan: other noise of the sensors.
 
@@ -186,7 +276,7 @@ def simulate(
     if not 0 <= seed < 2**64:
         raise InputError(f"seed is {seed}; it must be from 0 to 2**64 - 1")
     arm_path, arm_text = _file_or_text(arm)
-    plan_path, plan_text = _file_or_text(plan)
+    plan_path, plan_text = (None, plan.text) if isinstance(plan, Plan) else _file_or_text(plan)
     return dict(_lissom.simulate(seed, arm_path, arm_text, plan_path, plan_text))
 
 

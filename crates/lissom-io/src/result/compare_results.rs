@@ -1,95 +1,108 @@
 //! Comparison of results with the first of them.
 
 use std::f64::consts::{PI, TAU};
-use std::path::{Path, PathBuf};
 
-use lissom_io::result::{
-    AxisName, ComparedParameterEntry, ComparedResultEntry, EstimateEntry, ListedParameter,
-    PHASE_KEY, ParameterDifferenceEntry,
+use thiserror::Error;
+
+use super::channel_names::AxisName;
+use super::compared_file::{
+    ComparedFile, ComparedParameterEntry, ComparedResultEntry, ParameterDifferenceEntry,
 };
-use lissom_io::{ComparedFile, ParameterList, read_result};
-
-use crate::shared::failure::Failure;
+use super::estimate_entry::EstimateEntry;
+use super::read_result::{ListedParameter, PHASE_KEY, ParameterList};
 
 /// Number of standard errors above which a difference is called clear. A convention: chance alone gives more than three
 /// for 0.3 % of the parameters that have not changed.
-pub(crate) const CLEAR_STANDARD_ERRORS: f64 = 3.0;
+pub const CLEAR_STANDARD_ERRORS: f64 = 3.0;
 
-/// Reads the results and compares them.
-pub(crate) fn compared(files: &[PathBuf]) -> Result<ComparedFile, Failure> {
-    refuse_repeated(files)?;
-    let read = |file: &PathBuf| Ok::<_, Failure>((file.display().to_string(), list(file)?));
-    let lists = files.iter().map(read).collect::<Result<Vec<_>, _>>()?;
-    refuse_copies(&lists)?;
-    refuse_other_units(&lists)?;
-    let Some((_, first)) = lists.first() else { return Err(too_few(files)) };
-    Ok(ComparedFile {
-        lissom: env!("CARGO_PKG_VERSION").to_owned(),
-        axis: AxisName::of(first.names.axis),
-        clear_standard_errors: CLEAR_STANDARD_ERRORS,
-        results: lists.iter().map(|(file, list)| result_entry(file, list)).collect(),
-        parameters: parameters(&lists),
-    })
+/// Why results cannot be compared.
+#[derive(Debug, Error)]
+#[non_exhaustive]
+pub enum ComparisonError {
+    /// Fewer than two results.
+    #[error("{}", match only { Some(file) => format!("{file}: is the only result given"), None => "no result is given".to_owned() })]
+    TooFew {
+        /// The only one.
+        only: Option<String>,
+    },
+    /// Two results are the same.
+    #[error("{file}: has the same estimates as {other}")]
+    Copy {
+        /// The result.
+        file: String,
+        /// An earlier one.
+        other: String,
+    },
+    /// Results in different units, or of different kinds of axes.
+    #[error("results in different units cannot be compared: {}", results.join(", "))]
+    OtherUnits {
+        /// The results with their units.
+        results: Vec<String>,
+        /// What to do about it.
+        hint: &'static str,
+    },
 }
 
-/// Whether a file is a result of `lissom identify`.
-pub(crate) fn is_result(file: &Path) -> bool {
-    file.is_file() && read_result(file).is_ok()
+impl ComparisonError {
+    /// What the user can do.
+    pub fn hint(&self) -> Option<String> {
+        let hint = match self {
+            Self::TooFew { .. } => "give two or more results",
+            Self::Copy { .. } => DIFFERENT_LOGS,
+            Self::OtherUnits { hint, .. } => hint,
+        };
+        Some(hint.to_owned())
+    }
 }
 
-fn list(file: &Path) -> Result<ParameterList, Failure> {
-    read_result(file).map_err(Failure::NoResult)
-}
-
-fn too_few(files: &[PathBuf]) -> Failure {
-    let words = match files {
-        [only] => format!("{}: is the only result given", only.display()),
-        _ => "no result is given".to_owned(),
-    };
-    Failure::Asked(words, "give two or more: lissom compare before.json after.json")
+impl ComparedFile {
+    /// Compares results, each with its name, with the first of them.
+    ///
+    /// # Errors
+    /// [`ComparisonError`] if these are less than two, if two are the same, or if their units differ.
+    pub fn of(lists: &[(String, ParameterList)]) -> Result<Self, ComparisonError> {
+        let [(_, first), _, ..] = lists else {
+            return Err(ComparisonError::TooFew {
+                only: lists.first().map(|(file, _)| file.clone()),
+            });
+        };
+        refuse_copies(lists)?;
+        refuse_other_units(lists)?;
+        Ok(Self {
+            lissom: env!("CARGO_PKG_VERSION").to_owned(),
+            axis: AxisName::of(first.names.axis),
+            clear_standard_errors: CLEAR_STANDARD_ERRORS,
+            results: lists.iter().map(|(file, list)| result_entry(file, list)).collect(),
+            parameters: parameters(lists),
+        })
+    }
 }
 
 /// Hint for results from the same logs, whose errors are not independent.
 const DIFFERENT_LOGS: &str = "give results from different logs: only their errors are independent";
 
-fn refuse_repeated(files: &[PathBuf]) -> Result<(), Failure> {
-    if files.len() < 2 {
-        return Err(too_few(files));
-    }
-    for (i, file) in files.iter().enumerate() {
-        let whole = file.canonicalize().ok();
-        for earlier in &files[..i] {
-            if whole.is_some() && earlier.canonicalize().ok() == whole {
-                let words = format!("{}: is given twice", file.display());
-                return Err(Failure::Asked(words, DIFFERENT_LOGS));
-            }
-        }
-    }
-    Ok(())
-}
-
 /// Refuses copies of a result: no two logs give the same estimates to the last digit.
-fn refuse_copies(lists: &[(String, ParameterList)]) -> Result<(), Failure> {
+fn refuse_copies(lists: &[(String, ParameterList)]) -> Result<(), ComparisonError> {
     for (i, (file, list)) in lists.iter().enumerate() {
         let known = list.parameters.iter().any(|p| p.estimate.is_some());
         let copied = lists[..i].iter().find(|(_, other)| known && other == list);
         if let Some((other, _)) = copied {
-            let words = format!("{file}: has the same estimates as {other}");
-            return Err(Failure::Asked(words, DIFFERENT_LOGS));
+            let (file, other) = (file.clone(), other.clone());
+            return Err(ComparisonError::Copy { file, other });
         }
     }
     Ok(())
 }
 
 /// Refuses results in different units or of different kinds of axes.
-fn refuse_other_units(lists: &[(String, ParameterList)]) -> Result<(), Failure> {
+fn refuse_other_units(lists: &[(String, ParameterList)]) -> Result<(), ComparisonError> {
     let names = |list: &ParameterList| (list.names.axis, list.names.torque_unit());
     let Some((_, first)) = lists.first() else { return Ok(()) };
     let others = || lists.iter().map(|(_, list)| list);
     if others().all(|list| names(list) == names(first)) {
         return Ok(());
     }
-    let units: Vec<String> = lists
+    let results: Vec<String> = lists
         .iter()
         .map(|(file, list)| {
             let known = list.torque_per_command.map_or(" (no torque constant)", |_| "");
@@ -97,16 +110,14 @@ fn refuse_other_units(lists: &[(String, ParameterList)]) -> Result<(), Failure> 
             format!("{file} has a {axis} axis and friction in {}{known}", list.names.torque_unit())
         })
         .collect();
-    let words = format!("results in different units cannot be compared: {}", units.join(", "));
     let hint = if others().any(|list| list.names.axis != first.names.axis) {
         "compare results of the same axis"
     } else if others().any(|list| list.names.torque_known) {
-        "give `torque_constant` in [drive] of every campaign or of none, and run `lissom identify` again"
+        "give `torque_constant` in [drive] of every campaign or of none, and identify again"
     } else {
-        "log the same command in every campaign, or give `torque_constant` in [drive] of each, and run \
-         `lissom identify` again"
+        "log the same command in every campaign, or give `torque_constant` in [drive] of each, and identify again"
     };
-    Err(Failure::Asked(words, hint))
+    Err(ComparisonError::OtherUnits { results, hint })
 }
 
 fn result_entry(file: &str, list: &ParameterList) -> ComparedResultEntry {
