@@ -18,6 +18,7 @@ from ._finding import Finding
 from ._functions import compare, identify, inspect, plan, simulate, validate
 from ._lissom import __version__
 from ._plan import Plan
+from ._plots import ResultPlots
 from ._result import Result
 from ._signal import Signal
 from ._tables import Log
@@ -35,6 +36,7 @@ __all__ = [
     "Plan",
     "RefusedError",
     "Result",
+    "ResultPlots",
     "Run",
     "Signal",
     "Validation",

@@ -17,6 +17,7 @@ from . import _lissom
 from ._errors import FileError, InputError
 from ._estimate import Estimate
 from ._finding import Finding
+from ._plots import ResultPlots
 from ._tables import Path
 from ._units import unit_of
 
@@ -167,6 +168,11 @@ class Result:
         """Whether a response at a frequency is corrected with confidence, shape (n,)."""
         vouched: NDArray[np.bool_] = _fixed(np.asarray(self._root["frequency_response"]["vouched_for"], dtype=np.bool_))
         return vouched
+
+    @property
+    def plot(self) -> ResultPlots:
+        """Plots with matplotlib: ``result.plot.bode()``, ``result.plot.friction()``."""
+        return ResultPlots(self)
 
     def covariance(self, keys: Sequence[str] | None = None) -> tuple[list[str], NDArray[np.float64]]:
         """Give the covariance of estimates of the accepted solution.
