@@ -10,6 +10,7 @@ mod campaign;
 mod columns;
 mod command;
 mod comparing;
+mod describing;
 mod errors;
 mod exporting;
 mod identifying;
@@ -31,6 +32,8 @@ mod _lissom {
     use crate::command::command;
     #[pymodule_export]
     use crate::comparing::compare;
+    #[pymodule_export]
+    use crate::describing::describe;
     #[pymodule_export]
     use crate::exporting::export;
     #[pymodule_export]

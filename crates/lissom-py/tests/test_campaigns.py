@@ -190,3 +190,26 @@ def test_tips_and_logs_of_their_own(logs: dict[str, dict[str, Any]]) -> None:
     campaign = lissom.Campaign(logs, tips=[tip], **SIGNALS)
     assert campaign.tips == ("end",)
     assert np.array_equal(campaign.runs[0].tips["end"], campaign.runs[0].motor)
+
+
+def test_logs_describe_themselves(tmp_path: Path, logs: dict[str, dict[str, Any]]) -> None:
+    rows = zip(*logs["run-01"].values(), strict=True)
+    lines = ["Drive: axis 4", "", "Time [ms];Current [A];Position [deg]"]
+    lines += [f"{1e3 * t:.0f};{i:.6f};{np.degrees(q):.6f}".replace(".", ",") for t, i, q in rows]
+    path = tmp_path / "trace.csv"
+    path.write_text("\n".join(lines))
+    campaign = lissom.Campaign.of_logs(path, torque_constant=0.2)
+    assert any("held" in note for note in campaign.notes)
+    assert np.allclose(campaign.runs[0].motor, logs["run-01"]["theta_m"], atol=1e-7)
+    found = lissom.identify(pickle.loads(pickle.dumps(campaign)), effort="quick")["drive.inertia_kg_m2"]
+    assert found == pytest.approx(2e-3, rel=0.01)
+    assert np.array_equal(campaign.like(path).runs[0].motor, campaign.runs[0].motor)
+    with pytest.raises(lissom.InputError, match="Positions"):
+        lissom.Campaign.of_logs(path, motor="Positions:deg")
+    bare = tmp_path / "bare.csv"
+    bare.write_text("\n".join(["a,b,c", *("1,2,3" for _ in range(300))]))
+    with pytest.raises(lissom.InputError, match="motor"):
+        lissom.Campaign.of_logs(bare)
+    # With the plain description, names are those of the table below the preamble.
+    with pytest.raises(lissom.InputError, match="Time \\[ms\\]"):
+        lissom.Campaign(path, time="Zeit:ms", motor="Position [deg]:deg", current="Current [A]:A").runs

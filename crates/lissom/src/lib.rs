@@ -56,6 +56,7 @@ pub use lissom_core::{
 #[doc(inline)]
 pub use lissom_io as io;
 
+mod described_logs;
 mod error;
 mod found;
 mod identify_campaign;
@@ -63,6 +64,7 @@ mod parameter_text;
 pub mod prelude;
 mod result_text;
 
+pub use described_logs::DescribedLogs;
 pub use error::Error;
 pub use found::Found;
 pub use identify_campaign::Identify;

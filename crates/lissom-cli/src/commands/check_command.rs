@@ -3,6 +3,7 @@
 use std::collections::BTreeMap;
 use std::path::Path;
 
+use lissom::DescribedLogs;
 use lissom::identify::Effort;
 use lissom_io::limits::{CheckFile, LimitsFile, Outcome};
 use lissom_io::write::{self, Batch};
@@ -13,7 +14,6 @@ use crate::args::stdout_name::STDOUT;
 use crate::shared::exit_codes::ExitCode;
 use crate::shared::failure::Failure;
 use crate::shared::output_guard;
-use crate::tasks::described_logs::DescribedLogs;
 use crate::tasks::identification::{Asked, identified};
 use crate::views::{check_table, printer};
 
@@ -75,7 +75,7 @@ pub(crate) fn run(args: &CheckArgs) -> Result<ExitCode, Failure> {
 fn campaign(args: &CheckArgs) -> Result<CampaignFile, Failure> {
     let Some(like) = &args.like else {
         let logs = std::slice::from_ref(&args.log);
-        return DescribedLogs::new(logs, &args.said.description())?.read();
+        return Ok(DescribedLogs::new(logs, &args.said.description())?.read()?);
     };
     if !args.said.is_empty() {
         return Err(Failure::Asked(

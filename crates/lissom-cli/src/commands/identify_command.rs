@@ -3,6 +3,7 @@
 use std::io::{IsTerminal as _, stdout};
 use std::path::Path;
 
+use lissom::DescribedLogs;
 use lissom::identify::{Effort, Identified, SearchEnd, Severity};
 use lissom_io::write::{self, Batch};
 use lissom_io::{ResultFile, UnitNames, read_campaign};
@@ -12,7 +13,7 @@ use crate::args::stdout_name::STDOUT;
 use crate::shared::exit_codes::ExitCode;
 use crate::shared::failure::Failure;
 use crate::shared::output_guard;
-use crate::tasks::described_logs::{DescribedLogs, is_toml};
+use crate::tasks::described_logs::{is_toml, notes};
 use crate::tasks::identification::{Asked, first_answer, identified};
 use crate::tasks::known_arm::{Reference, checked};
 use crate::views::{
@@ -63,7 +64,9 @@ pub(crate) fn run(args: &IdentifyArgs) -> Result<ExitCode, Failure> {
         printer::json(&result)?;
     } else {
         if let Some(logs) = &described {
-            logs.notes().for_each(printer::line);
+            for note in notes(logs, &args.said.description()) {
+                printer::line(&note);
+            }
             draft_lines::taken(&logs.draft);
         }
         campaign_summary::campaign(names, &file.campaign);
@@ -88,7 +91,7 @@ pub(crate) fn run(args: &IdentifyArgs) -> Result<ExitCode, Failure> {
 fn described(args: &IdentifyArgs) -> Result<Option<DescribedLogs>, Failure> {
     let campaigns = args.input.iter().filter(|path| is_toml(path) || path.is_dir()).count();
     if campaigns == 0 {
-        return DescribedLogs::new(&args.input, &args.said.description()).map(Some);
+        return Ok(Some(DescribedLogs::new(&args.input, &args.said.description())?));
     }
     if args.input.len() > 1 || !args.said.is_empty() {
         return Err(Failure::Asked(

@@ -2,13 +2,13 @@
 
 use std::path::PathBuf;
 
+use lissom::DescribedLogs;
 use lissom_io::write;
 
 use crate::args::init_args::InitArgs;
 use crate::shared::exit_codes::ExitCode;
 use crate::shared::failure::Failure;
 use crate::shared::shell_word::shell_word;
-use crate::tasks::described_logs::DescribedLogs;
 use crate::views::{draft_lines, printer};
 
 pub(crate) fn run(args: &InitArgs) -> Result<ExitCode, Failure> {

@@ -69,6 +69,12 @@ pub(super) fn of_data(
         wanted.iter().map(|column| place(file, column, data)).collect::<Result<Vec<_>, _>>();
     let places = match places {
         Ok(places) => places,
+        // Of two headers without the column, that of the table below a preamble is the right one.
+        Err(error @ LogError::NoColumn { .. })
+            if matches!(first, Some(LogError::NoColumn { .. })) =>
+        {
+            return Err(error);
+        }
         Err(error) => return Err(first.unwrap_or(error)),
     };
     for (place, column) in places.iter().zip(&wanted) {

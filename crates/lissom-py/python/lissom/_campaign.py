@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING, Any, cast
 import numpy as np
 from numpy.typing import NDArray
 
+from . import _lissom
 from ._errors import FileError, InputError
 from ._lissom import Campaign as Native
 from ._signal import Signal
@@ -176,6 +177,15 @@ class Campaign:
         self._path: FilePath | None = None
         self._native: Native | None = None
 
+    #: The text of a campaign.toml that describes logs, if it is not made of `_tables`.
+    _described: str | None = None
+    _notes: tuple[str, ...] = ()
+
+    @property
+    def notes(self) -> tuple[str, ...]:
+        """What `of_logs` took from the logs, and why."""
+        return self._notes
+
     @classmethod
     def load(cls, path: Path) -> Campaign:
         """Read a campaign.toml and its logs.
@@ -203,6 +213,104 @@ class Campaign:
         made._native = Native.of_file(os.fspath(path))
         return made
 
+    @classmethod
+    def of_logs(
+        cls,
+        logs: Path | Sequence[Path],
+        *,
+        time: str | None = None,
+        sample_time: str | float | None = None,
+        motor: str | None = None,
+        current: str | None = None,
+        voltage: str | None = None,
+        command: str | None = None,
+        goal: str | None = None,
+        speed: str | None = None,
+        tips: Sequence[str] = (),
+        run: str | None = None,
+        hold: str | None = None,
+        gravity: bool = False,
+        mgl: str | float | None = None,
+        skip: str | float | None = None,
+        torque_constant: str | float | None = None,
+        resistance: str | float | None = None,
+        back_emf: str | float | None = None,
+        gear_ratio: float | None = None,
+        header_row: int | None = None,
+        skip_rows: int = 0,
+    ) -> Campaign:
+        """Make a campaign of files, with what they show: roles, units, decimal sign, whether the command is held.
+
+        It does what ``lissom identify LOG`` does. A role is guessed only where it is unambiguous, a unit never. `notes` has
+        what was taken from the logs.
+
+        Parameters
+        ----------
+        logs : path or sequence of path
+            The logs.
+        time, motor, current, voltage, command, goal, speed : str, optional
+            A channel by its name or number, with its unit if the log does not state it, as ``"q:deg"``. ``command`` is a
+            torque (``"tau:N*m"``) or of unknown unit (``"u:1"``), ``goal`` the position reference of a servo.
+        sample_time : str or float, optional
+            Sample time of logs without stamps, as ``"1 ms"``, or in seconds.
+        tips : sequence of str
+            Points of the arm.
+        run : str, optional
+            Column with the number or name of the run.
+        hold : {'measured', 'sampled'}, optional
+            How the input acts between samples; found from the motion if absent.
+        gravity : bool
+            Whether gravity of an unbalanced load acts.
+        mgl : str or float, optional
+            Known torque m·g·l of that load, or in N·m.
+        skip : str or float, optional
+            Beginning of each run to leave out, or in seconds.
+        torque_constant, resistance, back_emf : str or float, optional
+            Constants of the motor, as ``"0.1 N*m/A"``, or in SI units.
+        gear_ratio : float, optional
+            Turns of the motor for one turn of the joint.
+        header_row : int, optional
+            Row of a text with the names, from 1; found if absent.
+        skip_rows : int
+            Rows at the top of a text that do not count.
+
+        Returns
+        -------
+        Campaign
+            The campaign.
+
+        Raises
+        ------
+        InputError
+            If something is missing that the logs do not show.
+        """
+        files = [os.fspath(log) for log in cast("list[Path]", several(cast("Log", logs)))]
+        texts = {
+            "time": time,
+            "sample_time": None if sample_time is None else _with_unit(sample_time, "s"),
+            "motor": motor,
+            "current": current,
+            "voltage": voltage,
+            "command": command,
+            "goal": goal,
+            "speed": speed,
+            "run": run,
+            "hold": hold,
+            "mgl": None if mgl is None else _with_unit(mgl, "N*m"),
+            "skip": None if skip is None else _with_unit(skip, "s"),
+        }
+        said = {key: text for key, text in texts.items() if text is not None}
+        role = "voltage" if voltage is not None else "current"
+        constants = {"torque_constant": torque_constant, "resistance": resistance, "back_emf": back_emf}
+        drive = [(key, str(_constant(key, value, role))) for key, value in constants.items() if value is not None]
+        if gear_ratio is not None:
+            drive.append(("gear_ratio", str(float(gear_ratio))))
+        text, notes = _lissom.describe(files, said, list(tips), drive, gravity, header_row, skip_rows)
+        made = cls.__new__(cls)
+        made._tables, made._path, made._native, made._notes = {}, None, None, tuple(notes)
+        made._logs, made._described = [(file, file) for file in files], text
+        return made
+
     def save(self, path: Path) -> None:
         """Write a campaign.toml, with which the command and `load` read the same campaign.
 
@@ -227,6 +335,8 @@ class Campaign:
                 f"the run {in_memory[0]!r} is a table in memory, which a campaign.toml cannot name",
                 "write the table as CSV or Parquet first, and give its path",
             )
+        if self._described is not None:
+            raise InputError("this campaign was made by of_logs", "write it with `lissom init`")
         folder = target.parent.resolve()
         text = self._text(lambda file: os.path.relpath(FilePath(file).resolve(), folder))
         try:
@@ -261,6 +371,13 @@ class Campaign:
         made = Campaign.__new__(Campaign)
         made._tables, made._path, made._native = self._tables, None, None
         made._logs = _named(runs)
+        if self._described is not None:
+            one = made._logs[0][1]
+            if len(made._logs) != 1 or not is_path(one):
+                raise InputError("a campaign that was made by of_logs takes one other log, a path")
+            made._described = self._described
+            made._native = Native.of_text("campaign", self._described, [], os.fspath(cast("Path", one)))
+            return made
         if self._path is not None:
             if len(made._logs) != 1 or not is_path(made._logs[0][1]):
                 raise InputError(
@@ -279,10 +396,12 @@ class Campaign:
         return f"<Campaign of {len(self._logs)} logs: {names}{more}>"
 
     def __reduce__(self) -> tuple[Any, ...]:
-        return (_restored, (self._tables, self._logs, self._path))
+        return (_restored, (self._tables, self._logs, self._path, self._described, self._notes))
 
     def _text(self, file: Any = os.fspath) -> str:
         """Write the campaign.toml."""
+        if self._described is not None:
+            return self._described
         lines = []
         for table, content in self._tables.items():
             lines.append(f"[{table}]")
@@ -303,8 +422,15 @@ class Campaign:
         return self._native
 
 
-def _restored(tables: dict[str, object], logs: list[tuple[str, Log]], path: FilePath | None) -> Campaign:
+def _restored(
+    tables: dict[str, object],
+    logs: list[tuple[str, Log]],
+    path: FilePath | None,
+    described: str | None,
+    notes: tuple[str, ...],
+) -> Campaign:
     made = Campaign.__new__(Campaign)
+    made._described, made._notes = described, notes
     made._tables, made._logs, made._path, made._native = tables, logs, path, None
     if path is not None:
         only = os.fspath(cast("Path", logs[0][1])) if logs else None

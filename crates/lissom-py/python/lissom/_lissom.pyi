@@ -24,6 +24,15 @@ class Pending:
 
 def command(arguments: Sequence[str]) -> int: ...
 def compare(results: list[tuple[str, str]]) -> str: ...
+def describe(
+    logs: list[str],
+    said: dict[str, str],
+    tips: list[str],
+    drive: list[tuple[str, str]],
+    gravity: bool,
+    header_row: int | None = None,
+    skip_rows: int = 0,
+) -> tuple[str, list[str]]: ...
 def export(result: str, target: str, into: str | None = None, joint: str | None = None) -> list[tuple[str, bytes]]: ...
 def identify(
     campaign: Campaign,

@@ -1,0 +1,63 @@
+//! A campaign.toml made of a log and of what the user says about it.
+
+use std::collections::HashMap;
+use std::path::PathBuf;
+
+use lissom::DescribedLogs;
+use lissom::io::inspect::{Choice, CommandKey, Description};
+use pyo3::prelude::*;
+
+use crate::errors::raised;
+
+/// The text of a campaign.toml, and what was taken from the log. `said` has channels by their roles as `COLUMN:UNIT`, and
+/// other texts; `drive` the keys of `[drive]`.
+#[pyfunction]
+#[pyo3(signature = (logs, said, tips, drive, gravity, header_row=None, skip_rows=0))]
+pub(crate) fn describe(
+    py: Python<'_>,
+    logs: Vec<PathBuf>,
+    said: HashMap<String, String>,
+    tips: Vec<String>,
+    drive: Vec<(String, String)>,
+    gravity: bool,
+    header_row: Option<usize>,
+    skip_rows: usize,
+) -> PyResult<(String, Vec<String>)> {
+    let work = || -> Result<_, lissom::io::Error> {
+        let choice = |text: &String| Choice::parse(text);
+        let role = |name: &str| said.get(name).map(choice).transpose();
+        let text = |name: &str| said.get(name).cloned();
+        let mut goal = role("goal")?;
+        if let Some(goal) = &mut goal {
+            goal.keys.push(("quantity".to_owned(), "\"goal\"".to_owned()));
+        }
+        let inputs = [
+            (CommandKey::Current, role("current")?),
+            (CommandKey::Voltage, role("voltage")?),
+            (CommandKey::Command, role("command")?),
+            (CommandKey::Command, goal),
+        ];
+        let description = Description {
+            time: role("time")?,
+            sample_time: text("sample_time"),
+            run: text("run"),
+            command: inputs.into_iter().find_map(|(key, said)| Some((key, said?))),
+            motor: role("motor")?,
+            speed: role("speed")?,
+            tips: tips.iter().map(choice).collect::<Result<_, _>>()?,
+            header_row,
+            skip_rows,
+            hold: text("hold"),
+            drive: drive.clone(),
+            gravity,
+            mgl: text("mgl"),
+            skip: text("skip"),
+            ..Description::default()
+        };
+        let found = DescribedLogs::new(&logs, &description)?;
+        let taken = found.draft.taken().map(|(line, why)| format!("{line}: {why}"));
+        let notes = found.log.notes.iter().cloned().chain(taken).collect();
+        Ok((found.draft.text()?, notes))
+    };
+    py.detach(work).map_err(|error| raised(py, error))
+}

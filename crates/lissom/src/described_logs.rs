@@ -1,0 +1,64 @@
+//! Logs that no campaign.toml describes: what a log shows and what the user says make one.
+
+use std::path::PathBuf;
+
+use lissom_core::identify::hold_shown;
+use lissom_core::record::Hold;
+use lissom_io::inspect::{CampaignDraft, Description, DraftError, Inspection, inspect_with};
+use lissom_io::{CampaignFile, CampaignReader, Error};
+
+/// Name of the description in messages.
+const NAME: &str = "description of the log";
+
+/// Logs, as they are described.
+#[derive(Debug, Clone)]
+pub struct DescribedLogs {
+    /// The first log.
+    pub log: Inspection,
+    /// The campaign made of it.
+    pub draft: CampaignDraft,
+}
+
+impl DescribedLogs {
+    /// Looks at the first log, and makes a campaign of all. Roles are guessed where they are unambiguous; units are those of
+    /// the log or of what is said, never a guess. Whether a command is held is found from the motion if nothing says it.
+    ///
+    /// # Errors
+    /// [`Error::Log`] if a log cannot be read, [`Error::Draft`] if what is said does not fit it.
+    pub fn new(logs: &[PathBuf], said: &Description) -> Result<Self, Error> {
+        let first = logs.first().ok_or(DraftError::NoLog)?;
+        let log = inspect_with(first, &said.text_options())?;
+        let draft = CampaignDraft::new(&log, logs, said)?;
+        for other in &logs[1..] {
+            log.same_units(other, &said.text_options())?;
+        }
+        let mut described = Self { log, draft };
+        if let Some(hold) = described.hold_shown() {
+            let said = Description { hold_shown: Some(hold), ..said.clone() };
+            described.draft = CampaignDraft::new(&described.log, logs, &said)?;
+        }
+        Ok(described)
+    }
+
+    /// That the command is held, and why, if only the motion shows it. Logs that cannot be read show nothing here.
+    fn hold_shown(&self) -> Option<(String, String)> {
+        if !self.draft.assumes_hold() {
+            return None;
+        }
+        let campaign = self.read().ok()?.campaign;
+        let found = hold_shown(&campaign).filter(|found| found.hold == Hold::Sampled)?;
+        let why = format!(
+            "as a measured command it would act {:.2} ± {:.2} samples late: it is held from one sample to the next",
+            found.delay_samples, found.delay_std_samples
+        );
+        Some(("sampled".to_owned(), why))
+    }
+
+    /// Reads the logs.
+    ///
+    /// # Errors
+    /// [`Error::Draft`] if something is missing in the description; others if a log cannot be used.
+    pub fn read(&self) -> Result<CampaignFile, Error> {
+        CampaignReader::of_text(NAME, self.draft.text()?).read()
+    }
+}
