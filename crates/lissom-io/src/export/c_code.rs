@@ -40,8 +40,7 @@ pub fn c_files(model: &ExportModel) -> CFiles {
     );
     let mut source = String::from("#include \"lissom_feedforward.h\"\n\n#include <math.h>\n\n");
     let arm = &model.arm;
-    let of_modes = arm.modes.iter().map(lissom_core::replay::Oscillator::inertia_kg_m2);
-    let inertia = arm.inertia_kg_m2 + of_modes.sum::<f64>();
+    let inertia = model.total_inertia();
     let constant =
         |name: &str, value: f64| format!("static const float {name} = {}f;\n", number(value));
     for (name, value) in [

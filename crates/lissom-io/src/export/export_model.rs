@@ -5,7 +5,7 @@ use std::path::Path;
 use lissom_core::arm::Arm;
 use lissom_core::lti::{StateSpace, TransferFunction};
 use lissom_core::record::{Axis, CommandQuantity};
-use lissom_core::replay::ModalArm;
+use lissom_core::replay::{ModalArm, Oscillator};
 
 use super::export_error::ExportError;
 use super::friction_pair::FrictionPair;
@@ -229,13 +229,24 @@ impl ExportModel {
         0.5 * (self.arm.viscous_nm_s_per_rad[0] + self.arm.viscous_nm_s_per_rad[1])
     }
 
+    /// Inertia of all that the motor turns, also behind springs.
+    pub(super) fn total_inertia(&self) -> f64 {
+        self.arm.inertia_kg_m2 + self.arm.modes.iter().map(Oscillator::inertia_kg_m2).sum::<f64>()
+    }
+
+    /// Inertia of a joint whose body is rigid: all that turns, unless tips show that the arm bends, which is then a matter of
+    /// the bodies on the joint.
+    pub(super) fn joint_inertia(&self) -> f64 {
+        if self.tips.is_empty() { self.total_inertia() } else { self.arm.inertia_kg_m2 }
+    }
+
     /// Gains of WPILib for a command in volts: kS, kV, kA and kG. kS and kV are the pair of the friction law.
     pub(super) fn wpilib(&self) -> Option<[f64; 4]> {
         let volts = self.names.command == CommandQuantity::Voltage;
         let k = self.torque_per_command;
         let gravity = self.arm.gravity.map_or(0.0, |g| g.sine_nm.hypot(g.cosine_nm));
         let pair = self.pair();
-        let gains = [pair.coulomb_nm, pair.viscous_nm_s_per_rad, self.arm.inertia_kg_m2, gravity]
+        let gains = [pair.coulomb_nm, pair.viscous_nm_s_per_rad, self.total_inertia(), gravity]
             .map(|x| x / k);
         volts.then_some(gains)
     }

@@ -30,7 +30,7 @@ pub fn mjcf_into(
     of_type(file, &found, "hinge", &[kind])?;
     let pair = model.pair();
     let set = [
-        ("armature", number(model.arm.inertia_kg_m2)),
+        ("armature", number(model.joint_inertia())),
         ("damping", number(pair.viscous_nm_s_per_rad)),
         ("frictionloss", number(pair.coulomb_nm)),
     ];

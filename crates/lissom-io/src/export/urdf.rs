@@ -37,7 +37,7 @@ pub fn urdf_into(
     let mut about = model.merged_note();
     about.push(format!(
         "Not in URDF: inertia of the motor's side, {}.",
-        number(model.arm.inertia_kg_m2)
+        number(model.joint_inertia())
     ));
     Ok(with_comment(&changed, found.node.range().start, &about))
 }

@@ -1,5 +1,7 @@
 //! The motor's equation in slip phases.
 
+use std::f64::consts::PI;
+
 use nalgebra::{DMatrix, DVector};
 
 use crate::identify::drive_estimates::DriveEstimates;
@@ -9,7 +11,7 @@ use crate::identify::gravity_estimate::Gravity;
 use crate::identify::methods::regression::cluster_covariance::larger;
 use crate::identify::methods::regression::extra_delay::{changes_by_delay, extra_delay};
 use crate::identify::methods::regression::fitted::Fitted;
-use crate::identify::methods::regression::hidden_mode::{HiddenMode, shown_mode};
+use crate::identify::methods::regression::hidden_mode::{HiddenMode, ShownMode, shown_mode};
 use crate::identify::methods::regression::lag::{AngleLag, angle_lag};
 use crate::identify::methods::regression::left_out::{RunLeftOut, rms_speed, runs_left_out};
 use crate::identify::methods::regression::left_torque::LeftTorque;
@@ -262,7 +264,9 @@ fn on_slip_phases(
     let rigid = as_logged.with_command_noise(factor);
     let sums = sums.with_command_noise(&rigid, factor);
     let [left_out, beside_others] = without_each_run(&sums, &found);
-    let shown = shown_mode(&sums, &found);
+    // A log does not show the motion of a mode above its Nyquist frequency.
+    let is_logged = |mode: &ShownMode| mode.shape.omega_rad_s * sample_time < PI;
+    let shown = shown_mode(&sums, &found).filter(is_logged);
     let flexible = shown.as_ref().map(|mode| rigid.with_mode(mode.shape));
     let with_mode = flexible.as_ref().zip(shown.as_ref()).and_then(|(rows, mode)| {
         let sums = SumsByLength::of_mode(rows, mode.shapes_beside());
