@@ -7,18 +7,20 @@ use lissom::DescribedLogs;
 use lissom::identify::{Effort, Identified, SearchEnd, Severity};
 use lissom_io::write::{self, Batch};
 use lissom_io::{ResultFile, UnitNames, read_campaign};
+use lissom_views::known_arm::checked;
+use lissom_views::{Reference, report_page, result_figures};
 
 use crate::args::identify_args::IdentifyArgs;
 use crate::args::stdout_name::STDOUT;
+use crate::shared::command_hint::PAGE_HINTS;
 use crate::shared::exit_codes::ExitCode;
 use crate::shared::failure::Failure;
 use crate::shared::output_guard;
 use crate::tasks::described_logs::{is_toml, notes};
 use crate::tasks::identification::{Asked, first_answer, identified};
-use crate::tasks::known_arm::{Reference, checked};
 use crate::views::{
-    arm_check, campaign_summary, draft_lines, equivalent_table, finding_list, parameter_table,
-    printer, report_page, result_plots, separability_section,
+    arm_check_words, campaign_summary, draft_lines, equivalent_table, finding_list,
+    parameter_table, plot_file, printer, separability_words,
 };
 
 pub(crate) fn run(args: &IdentifyArgs) -> Result<ExitCode, Failure> {
@@ -49,15 +51,22 @@ pub(crate) fn run(args: &IdentifyArgs) -> Result<ExitCode, Failure> {
     let mut batch = Batch::new();
     if let Some(path) = &args.report {
         let title = name.display().to_string();
-        let text =
-            report_page::page(&title, &file.campaign, names, &id, reference, geometry.as_ref());
+        let text = report_page::page(
+            &title,
+            &file.campaign,
+            &id,
+            reference,
+            geometry.as_ref(),
+            PAGE_HINTS,
+        );
         batch.file(path, text.as_bytes())?;
     }
     if let Some(path) = json_file {
         batch.file(path, write::json_text(path, &result)?.as_bytes())?;
     }
     if let Some(folder) = &args.plots {
-        result_plots::add_all(&mut batch, folder, &file.campaign.channels, names, &id, reference)?;
+        let plots = result_figures(&file.campaign.channels, &id, reference);
+        plot_file::add_all(&mut batch, folder, &plots)?;
     }
     batch.commit()?;
     if json.is_some() && json_file.is_none() {
@@ -80,8 +89,8 @@ pub(crate) fn run(args: &IdentifyArgs) -> Result<ExitCode, Failure> {
         if let Some(found) = &id.equivalent {
             equivalent_table::brief(names, found);
         }
-        arm_check::print(geometry.as_ref());
-        separability_section::print(names.axis, &id);
+        arm_check_words::print(geometry.as_ref());
+        separability_words::print(names.axis, &id);
         finding_list::findings(&id.findings);
     }
     Ok(code(&id))

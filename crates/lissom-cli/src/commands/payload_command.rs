@@ -6,6 +6,7 @@ use lissom::identify::{Identified, LoadedArm, OutputError};
 use lissom::record::{Axis, Channels};
 use lissom_io::write::{self, Batch};
 use lissom_io::{PayloadFile, PayloadPrediction, PredictedPayload, read_campaign};
+use lissom_views::payload_plot;
 
 use crate::args::payload_args::PayloadArgs;
 use crate::args::stdout_name::STDOUT;
@@ -14,7 +15,7 @@ use crate::shared::failure::Failure;
 use crate::shared::output_guard;
 use crate::tasks::identification::{Asked, identified};
 use crate::views::plot_file::Picture;
-use crate::views::{finding_list, payload_plot, payload_table, printer};
+use crate::views::{finding_list, payload_table, printer};
 
 /// Number of logarithmic steps in the frequencies of the responses.
 const FREQUENCIES: i32 = 400;

@@ -7,6 +7,7 @@ use lissom_io::write::{self, Batch};
 use lissom_io::{
     CampaignFile, UnitNames, ValidationFile, read_arm, read_campaign, read_campaign_like,
 };
+use lissom_views::validation_plots;
 
 use crate::args::stdout_name::STDOUT;
 use crate::args::validate_args::ValidateArgs;
@@ -14,7 +15,7 @@ use crate::shared::exit_codes::ExitCode;
 use crate::shared::failure::Failure;
 use crate::shared::output_guard;
 use crate::tasks::described_logs::is_toml;
-use crate::views::{campaign_summary, finding_list, printer, validation_plots, validation_table};
+use crate::views::{campaign_summary, finding_list, plot_file, printer, validation_table};
 
 pub(crate) fn run(args: &ValidateArgs) -> Result<ExitCode, Failure> {
     let json = args.json.as_deref();
@@ -33,7 +34,7 @@ pub(crate) fn run(args: &ValidateArgs) -> Result<ExitCode, Failure> {
         batch.file(path, write::json_text(path, &result)?.as_bytes())?;
     }
     if let Some(folder) = &args.plots {
-        validation_plots::add_all(&mut batch, folder, campaign, &validation)?;
+        plot_file::add_all(&mut batch, folder, &validation_plots(campaign, &validation))?;
     }
     batch.commit()?;
     if json.is_some() && json_file.is_none() {

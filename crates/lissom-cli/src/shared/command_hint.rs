@@ -5,6 +5,13 @@ use lissom::identify::findings::{
     ValidationFinding,
 };
 use lissom::identify::{EquivalentRefusal, MissingKind, MovedBy};
+use lissom_views::ProgramHints;
+
+/// What the command adds to the report page.
+pub(crate) const PAGE_HINTS: ProgramHints = ProgramHints {
+    of_finding: command_hint,
+    equivalent_intervals: Some("The command lissom equivalent gives the 95 % intervals."),
+};
 
 /// The option or command that helps with a finding, in addition to the finding's own hint.
 pub(crate) fn command_hint(kind: &FindingKind) -> Option<&'static str> {

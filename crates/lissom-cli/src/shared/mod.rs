@@ -1,8 +1,7 @@
-//! Modules that all other layers may use: errors, checks of output files, progress bars, numbers as text, and the
-//! options that help with a finding.
+//! Modules that all other layers may use: errors, checks of output files, progress bars, and the options
+//! that help with a finding.
 
 pub(crate) mod command_hint;
-pub(crate) mod digits;
 pub(crate) mod exit_codes;
 pub(crate) mod failure;
 pub(crate) mod interrupted;

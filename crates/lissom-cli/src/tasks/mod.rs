@@ -5,7 +5,6 @@ pub(crate) mod demo_comparison;
 pub(crate) mod described_logs;
 pub(crate) mod equivalent_input;
 pub(crate) mod identification;
-pub(crate) mod known_arm;
 pub(crate) mod load_study;
 pub(crate) mod mode_shapes;
 pub(crate) mod model_task;

@@ -13,12 +13,12 @@ use lissom::drive::{Coulomb, Motor};
 use lissom::lti::{StateSpace, ZeroPoleGain};
 use lissom_io::model::{Function, Model, Responses};
 use lissom_io::{ArmError, BeamKind};
+use lissom_views::digits::shown;
 use num_complex::Complex64;
 
 use super::any_beam::{Beam, MOST_DENSE};
 use super::load_study;
 use crate::args::model_args::ModelArgs;
-use crate::shared::digits::shown;
 use crate::shared::failure::Failure;
 
 /// Largest number of masses for which matrices and polynomials are printed.

@@ -3,9 +3,9 @@
 use lissom::identify::{Identified, Method, MotorRegression, RunKind};
 use lissom::record::{Campaign, Hold};
 use lissom_io::UnitNames;
+use lissom_views::digits::{counted, trimmed};
 
-use super::printer::{counted, line};
-use crate::shared::digits::trimmed;
+use super::printer::line;
 
 /// Significant digits of sample times.
 const TIMES: usize = 5;

@@ -2,9 +2,9 @@
 
 use lissom_io::limits::{CheckFile, CheckedParameterEntry, Outcome};
 use lissom_text::with_uncertainty;
+use lissom_views::digits::trimmed;
 
 use super::printer::{line, table};
-use crate::shared::digits::trimmed;
 
 /// Significant digits of a limit.
 const DIGITS: usize = 5;

@@ -8,9 +8,9 @@ use lissom_io::result::{
     ParameterDifferenceEntry,
 };
 use lissom_report::{significant, with_uncertainty};
+use lissom_views::digits::{counted, signed_percent};
 
-use super::printer::{counted, line, table, wrapped};
-use crate::shared::digits::signed_percent;
+use super::printer::{line, table, wrapped};
 
 /// Width of sentences.
 const WIDTH: usize = 100;

@@ -7,7 +7,7 @@ use lissom::plan::percent;
 use lissom::record::Campaign;
 use lissom_io::UnitNames;
 
-use super::{campaign_summary, finding_list, printer, separability_section};
+use super::{campaign_summary, finding_list, printer, separability_words};
 use crate::tasks::demo_comparison::DemoRow;
 
 pub(crate) fn report(out: &Path, campaign: &Campaign, id: &Identified, rows: &[DemoRow]) {
@@ -33,7 +33,7 @@ pub(crate) fn report(out: &Path, campaign: &Campaign, id: &Identified, rows: &[D
         table.push(line);
     }
     printer::table(&table);
-    separability_section::print(campaign.channels.axis, id);
+    separability_words::print(campaign.channels.axis, id);
     finding_list::findings(&id.findings);
     printer::line("");
     printer::line(&format!(

@@ -3,14 +3,12 @@
 use lissom::beam::RootClass;
 use lissom::identify::{Equivalent, Estimate, ResponseZero, StdSource, StrainlessForm};
 use lissom_io::UnitNames;
-use lissom_report::{Cells, Page, Table, interval, with_uncertainty};
+use lissom_report::{interval, with_uncertainty};
+use lissom_views::digits::counted;
+use lissom_views::equivalent_section::{equation, heading, rows_for_use, torque_name};
 
 use super::printer;
-use crate::shared::digits::shown as significant;
 use crate::tasks::equivalent_input::{Input, KnownMotor};
-
-/// Digits of numbers without a standard error.
-const DIGITS: usize = 7;
 
 pub(crate) fn print(input: &Input, found: &Equivalent) {
     head(input, found);
@@ -33,36 +31,11 @@ pub(crate) fn print(input: &Input, found: &Equivalent) {
 /// Prints the equivalent arm in the output of `identify`.
 pub(crate) fn brief(names: UnitNames, found: &Equivalent) {
     let Some(form) = &found.strainless else { return };
-    let modes = printer::counted(found.modes.len(), "mode");
+    let modes = counted(found.modes.len(), "mode");
     printer::line(&format!(
         "\nequivalent arm with {modes} (`lissom equivalent` gives its 95 % intervals)"
     ));
     for_use(names, found, form);
-}
-
-/// Adds the equivalent arm to the HTML page.
-pub(crate) fn section(page: Page, names: UnitNames, found: Option<&Equivalent>) -> Page {
-    let Some((found, form)) = found.and_then(|e| Some((e, e.strainless.as_ref()?))) else {
-        return page;
-    };
-    let rows = rows_for_use(names, found, form);
-    let columns: Vec<(&str, Cells)> = rows[0]
-        .iter()
-        .enumerate()
-        .map(|(i, title)| match i {
-            0 => ("", Cells::Text),
-            _ => (title.as_str(), Cells::Numbers),
-        })
-        .collect();
-    let caption = "Each row is an equation: the sum over its columns, with angles in rad";
-    let table = rows[1..].iter().fold(Table::new(caption, &columns), |t, row| t.row(row.clone()));
-    page.heading("Equivalent arm")
-        .paragraph(&format!(
-            "{} from the responses per motor angle. The gains are adjusted such that turning the whole arm \
-             bends nothing. The command lissom equivalent gives the 95 % intervals.",
-            printer::counted(found.modes.len(), "mode")
-        ))
-        .table(&table)
 }
 
 fn head(input: &Input, found: &Equivalent) {
@@ -70,7 +43,7 @@ fn head(input: &Input, found: &Equivalent) {
     let (low, high) = found.fit.range_rad_s;
     printer::line(&format!(
         "{} at {} frequencies, {low:.4} to {high:.4} rad/s: {}",
-        printer::counted(data.names.len(), "point"),
+        counted(data.names.len(), "point"),
         data.omega_rad_s.len(),
         data.names.join(", ")
     ));
@@ -79,8 +52,8 @@ fn head(input: &Input, found: &Equivalent) {
     } else {
         format!("or {:.2} standard errors", found.fit.weighted_rms)
     };
-    let poles = printer::counted(found.fit.poles.len(), "pole");
-    let modes = printer::counted(found.modes.len(), "mode");
+    let poles = counted(found.fit.poles.len(), "pole");
+    let modes = counted(found.modes.len(), "mode");
     printer::line(&format!(
         "{poles} fitted, {modes} kept; residual {:.3} % of each response (rms), {left}",
         100.0 * found.relative_residual
@@ -150,20 +123,6 @@ fn figures(input: &Input, found: &Equivalent) {
     printer::table(&rows);
 }
 
-/// Heading of a table with one row for each equation and one column for each variable.
-fn heading(found: &Equivalent, title: &str) -> Vec<String> {
-    let points = found.points.iter().map(|&i| format!("·θ({})", found.names[i]));
-    std::iter::once(title.to_owned()).chain(points).chain(["·θ_m".to_owned()]).collect()
-}
-
-fn equation(found: &Equivalent, i: usize) -> String {
-    format!("θ̈({}) [1/s²] =", found.names[found.points[i]])
-}
-
-fn torque_name(names: UnitNames) -> String {
-    format!("torque [{}] =", names.coupling_unit())
-}
-
 fn as_fitted(input: &Input, found: &Equivalent) {
     let mut rows = vec![heading(found, "as fitted (17)-(18)")];
     let beam = &found.beam;
@@ -185,22 +144,6 @@ fn as_fitted(input: &Input, found: &Equivalent) {
 
 fn for_use(names: UnitNames, found: &Equivalent, form: &StrainlessForm) {
     printer::table(&rows_for_use(names, found, form));
-}
-
-fn rows_for_use(names: UnitNames, found: &Equivalent, form: &StrainlessForm) -> Vec<Vec<String>> {
-    let number = |x: f64| significant(x, DIGITS).replace('-', "−");
-    let mut rows = vec![heading(found, "for use (turning the whole arm bends nothing)")];
-    for i in 0..found.points.len() {
-        let mut row = vec![equation(found, i)];
-        row.extend(form.a.row(i).iter().map(|x| number(*x)));
-        row.push(number(form.b[i]));
-        rows.push(row);
-    }
-    if found.arm.is_some() {
-        let h = form.h.iter().map(|x| number(*x)).chain([number(form.h_motor)]);
-        rows.push(std::iter::once(torque_name(names)).chain(h).collect());
-    }
-    rows
 }
 
 fn zeros(found: &Equivalent) {

@@ -6,9 +6,9 @@ use lissom_io::inspect::{
     CampaignDraft, Description, DraftError, InspectedChannel, Inspection, LabelOrder, Relation,
     Role, UnitSource,
 };
+use lissom_views::digits::{counted, trimmed};
 
-use super::printer::{counted, line, table, wrapped};
-use crate::shared::digits::trimmed;
+use super::printer::{line, table, wrapped};
 use crate::shared::shell_word::shell_word;
 use crate::tasks::described_logs::tip_option;
 

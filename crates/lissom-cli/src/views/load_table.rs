@@ -1,9 +1,9 @@
 //! Table of the same beam with other loads: its poles move, its zeros do not.
 
 use lissom_io::model::PayloadCase;
+use lissom_views::digits::{change, roots_of, shown, trimmed};
 
 use super::printer::{self, line};
-use crate::shared::digits::{change, roots_of, shown, trimmed};
 use crate::tasks::any_beam::Beam;
 use crate::tasks::load_study::counterpart;
 use crate::tasks::model_task::Task;

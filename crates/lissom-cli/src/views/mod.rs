@@ -1,17 +1,15 @@
-//! Output for people: text in the terminal, plots, and the HTML page.
+//! Output for people: text in the terminal, and plots of models and logs as files. The figures and the page of results are
+//! made by `lissom-views`.
 
-pub(crate) mod arm_check;
-pub(crate) mod bode_plots;
+pub(crate) mod arm_check_words;
 pub(crate) mod campaign_summary;
 pub(crate) mod channel_plots;
 pub(crate) mod check_table;
 pub(crate) mod compare_table;
 pub(crate) mod demo_table;
 pub(crate) mod draft_lines;
-pub(crate) mod equivalent_plots;
 pub(crate) mod equivalent_table;
 pub(crate) mod finding_list;
-pub(crate) mod friction_curve;
 pub(crate) mod friction_truth;
 pub(crate) mod inspection_table;
 pub(crate) mod load_table;
@@ -19,17 +17,12 @@ pub(crate) mod model_algebra;
 pub(crate) mod model_plots;
 pub(crate) mod model_table;
 pub(crate) mod parameter_table;
-pub(crate) mod payload_plot;
 pub(crate) mod payload_table;
 pub(crate) mod plan_table;
 pub(crate) mod plot_file;
 pub(crate) mod printed_coulomb_table;
 pub(crate) mod printer;
-pub(crate) mod report_page;
-pub(crate) mod result_plots;
 pub(crate) mod rig_table;
-pub(crate) mod separability_section;
+pub(crate) mod separability_words;
 pub(crate) mod threshold_table;
-pub(crate) mod validation_plots;
 pub(crate) mod validation_table;
-pub(crate) mod velocity_friction;

@@ -2,9 +2,9 @@
 
 use lissom::beam::BeamMatrices;
 use lissom_io::model::{Function, Model};
+use lissom_views::digits::shown;
 
 use super::printer;
-use crate::shared::digits::shown;
 
 /// Significant digits.
 const DIGITS: usize = 6;

@@ -6,11 +6,11 @@ use lissom::beam::RootClass;
 use lissom_io::model::{Model, PayloadCase};
 use lissom_io::write::Batch;
 use lissom_report::{Axis, BodePlot, LinePlot, Role, Series, Style, Trace, TraceStyle};
+use lissom_views::digits::shown;
 use num_complex::Complex64;
 
 use super::plot_file::add;
 use crate::args::model_args::Omega;
-use crate::shared::digits::shown;
 use crate::shared::failure::Failure;
 use crate::shared::progress_bar;
 use crate::tasks::load_study::of_class;

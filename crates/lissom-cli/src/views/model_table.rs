@@ -5,12 +5,12 @@ use std::f64::consts::TAU;
 use lissom::beam::{Damping, MOST_MASSES, Property, RootClass, Zeros, class};
 use lissom_io::BeamKind;
 use lissom_io::model::{Model, Responses};
+use lissom_views::digits::{counted, roots_of, shown};
 use num_complex::Complex64;
 
 use super::load_table::payloads;
 use super::model_algebra;
-use super::printer::{self, counted, line};
-use crate::shared::digits::{roots_of, shown};
+use super::printer::{self, line};
 use crate::tasks::model_task::{MOST_SHOWN, Task};
 
 /// Significant digits of frequencies and zeros.

@@ -2,22 +2,20 @@
 
 use lissom_io::PayloadPrediction;
 use lissom_report::{interval, with_uncertainty};
+use lissom_views::digits::trimmed;
+use lissom_views::payload_plot::MASS_DIGITS;
 
 use super::printer;
-use crate::shared::digits::trimmed;
-
-/// Largest number of digits of a mass.
-pub(crate) const DIGITS: usize = 6;
 
 pub(crate) fn table(found: &PayloadPrediction) {
     let at = found.distance_m.map_or_else(String::new, |r| format!(", {r:.4} m from the axis"));
     printer::line(&format!(
         "{}: identified with {} kg{at}",
         found.tip,
-        trimmed(found.mass_kg, DIGITS)
+        trimmed(found.mass_kg, MASS_DIGITS)
     ));
     for payload in &found.payloads {
-        let mass = trimmed(payload.mass_kg, DIGITS);
+        let mass = trimmed(payload.mass_kg, MASS_DIGITS);
         printer::line(&format!("\nwith {mass} kg, motor clamped:"));
         printer::line("                          value             95 % interval");
         for (k, mode) in payload.loaded.modes.iter().enumerate() {

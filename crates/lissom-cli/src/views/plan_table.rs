@@ -3,6 +3,7 @@
 use std::path::Path;
 
 use lissom::plan::{BETWEEN_S, Plan, PlannedMotion, PlannedRun, percent};
+use lissom_views::digits::counted;
 
 use super::printer;
 
@@ -16,7 +17,7 @@ pub(crate) fn report(arm: &Path, plan: &Plan, out: &Path) {
     }
     printer::line(&format!(
         "\n{} in {:.0} s, including {BETWEEN_S} s before each run",
-        printer::counted(plan.runs.len(), "run"),
+        counted(plan.runs.len(), "run"),
         plan.time_s
     ));
     printer::line("");

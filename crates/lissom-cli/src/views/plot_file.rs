@@ -4,6 +4,7 @@ use std::path::{Path, PathBuf};
 
 use lissom_io::write::Batch;
 use lissom_report::{BodePlot, Figure};
+use lissom_views::NamedFigure;
 
 use crate::shared::failure::Failure;
 
@@ -15,11 +16,21 @@ pub(crate) fn add(
     batch: &mut Batch,
     folder: &Path,
     name: &str,
-    plot: &impl Figure,
+    plot: &dyn Figure,
 ) -> Result<(), Failure> {
     batch.file(&folder.join(format!("{name}.svg")), plot.to_svg()?.as_bytes())?;
     batch.file(&folder.join(format!("{name}.png")), &plot.to_png(PNG_SCALE)?)?;
     Ok(())
+}
+
+/// Adds the plots of a result or a validation, each under its name.
+pub(crate) fn add_all(
+    batch: &mut Batch,
+    folder: &Path,
+    plots: &[NamedFigure],
+) -> Result<(), Failure> {
+    batch.folder(folder)?;
+    plots.iter().try_for_each(|plot| add(batch, folder, &plot.name, plot.figure.as_ref()))
 }
 
 /// The file of a plot, SVG or PNG.

@@ -45,11 +45,6 @@ pub(crate) fn table(rows: &[Vec<String>]) {
     }
 }
 
-/// A number with its noun, as in "1 run" and "2 runs".
-pub(crate) fn counted(number: usize, what: &str) -> String {
-    format!("{number} {what}{}", if number == 1 { "" } else { "s" })
-}
-
 /// Wraps a text into lines of at most `width` characters; a longer word gets its own line.
 pub(crate) fn wrapped(text: &str, width: usize) -> Vec<String> {
     let mut lines: Vec<String> = Vec::new();

@@ -1,9 +1,9 @@
 //! The list of thresholds.
 
 use lissom::{Threshold, ThresholdValue};
+use lissom_views::digits::trimmed;
 
 use super::printer::{line, wrapped};
-use crate::shared::digits::trimmed;
 
 /// Significant digits of values.
 const DIGITS: usize = 7;

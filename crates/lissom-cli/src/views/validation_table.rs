@@ -6,9 +6,9 @@ use lissom::identify::{
 };
 use lissom::record::Campaign;
 use lissom_io::{UnitNames, channel_name_unit};
+use lissom_views::digits;
 
 use super::printer;
-use crate::shared::digits;
 
 /// Largest number of runs that are shown one by one.
 const SHOWN: usize = 8;

@@ -3,18 +3,19 @@
 use std::path::Path;
 
 use lissom_io::write::{self, Batch};
-use lissom_io::{ArmFile, ResultFile, UnitNames, read_campaign};
+use lissom_io::{ArmFile, ResultFile, read_campaign};
+use lissom_views::{Reference, report_page, result_figures};
 
 use super::demo_campaign;
 use crate::args::demo_args::DemoArgs;
 use crate::args::stdout_name::STDOUT;
+use crate::shared::command_hint::PAGE_HINTS;
 use crate::shared::exit_codes::ExitCode;
 use crate::shared::failure::Failure;
 use crate::shared::output_guard;
 use crate::tasks::demo_comparison::{compared, comparison};
 use crate::tasks::identification::{Asked, identified};
-use crate::tasks::known_arm::Reference;
-use crate::views::{demo_table, printer, report_page, result_plots};
+use crate::views::{demo_table, plot_file, printer};
 
 /// The arm.toml of the demo.
 const ARM: &str = include_str!("arm.toml");
@@ -33,14 +34,14 @@ pub(crate) fn run(args: &DemoArgs) -> Result<ExitCode, Failure> {
     let id = identified(&campaign_path, &file, Asked::default())?;
 
     let channels = &file.campaign.channels;
-    let names = UnitNames::new(channels);
     let truth = Reference::truth(&rig.arm);
     let result = ResultFile::of(channels, &id, None);
     write::write_json(&out.join("result.json"), &result)?;
     let mut batch = Batch::new();
-    result_plots::add_all(&mut batch, out, channels, names, &id, Some(&truth))?;
+    plot_file::add_all(&mut batch, out, &result_figures(channels, &id, Some(&truth)))?;
     batch.commit()?;
-    let text = report_page::page("lissom demo", &file.campaign, names, &id, Some(&truth), None);
+    let text =
+        report_page::page("lissom demo", &file.campaign, &id, Some(&truth), None, PAGE_HINTS);
     write::write_text(&out.join("report.html"), &text)?;
 
     let rows = comparison(&rig.arm, &id);

@@ -6,6 +6,7 @@ use lissom::beam::{BestPoint, DistributedBeam};
 use lissom::identify::{EquivalentError, EquivalentRefusal, equivalent};
 use lissom_io::write::{self, Batch};
 use lissom_io::{ArmFile, BeamKind, EquivalentFile};
+use lissom_views::equivalent_plots;
 
 use super::saved_arm;
 use crate::args::equivalent_args::EquivalentArgs;
@@ -15,7 +16,7 @@ use crate::shared::failure::Failure;
 use crate::shared::output_guard;
 use crate::tasks::equivalent_input::Input;
 use crate::views::plot_file::Picture;
-use crate::views::{equivalent_plots, equivalent_table, finding_list, printer};
+use crate::views::{equivalent_table, finding_list, printer};
 
 pub(crate) fn run(args: &EquivalentArgs) -> Result<ExitCode, Failure> {
     let json = args.json.as_deref();
@@ -50,7 +51,10 @@ pub(crate) fn run(args: &EquivalentArgs) -> Result<ExitCode, Failure> {
         batch.file(path, saved_arm::text(&args.inputs[0], &input, &found)?.as_bytes())?;
     }
     if let Some(picture) = &picture {
-        equivalent_plots::add_all(&mut batch, picture, &input, &found)?;
+        picture.draw(&mut batch, &equivalent_plots::points(&input.data, &found))?;
+        if let Some(plot) = equivalent_plots::motor(&input.data, input.names, &found) {
+            picture.beside("motor").draw(&mut batch, &plot)?;
+        }
     }
     batch.commit()?;
     if json.is_some() && json_file.is_none() {

@@ -4,6 +4,9 @@ use std::path::Path;
 
 use lissom_io::write::{self, Batch};
 use lissom_io::{ArmFile, PlanFile, UnitNames, read_campaign};
+use lissom_views::bode_plots::bode_plots;
+use lissom_views::known_arm::Reference;
+use lissom_views::velocity_friction::friction_plot;
 
 use crate::args::figures_args::FiguresArgs;
 use crate::args::stdout_name::STDOUT;
@@ -12,12 +15,9 @@ use crate::shared::exit_codes::ExitCode;
 use crate::shared::failure::Failure;
 use crate::shared::output_guard;
 use crate::tasks::identification::{Asked, identified};
-use crate::tasks::known_arm::Reference;
 use crate::tasks::printed_coulomb::{compared, rows};
-use crate::views::bode_plots::bode_plots;
 use crate::views::friction_truth::with_truth;
 use crate::views::plot_file::add;
-use crate::views::velocity_friction::friction_plot;
 use crate::views::{printed_coulomb_table, printer};
 
 const ARM: &str = include_str!("arm.toml");

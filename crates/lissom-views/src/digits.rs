@@ -1,4 +1,4 @@
-//! Numbers as text.
+//! Numbers as text, for cells and sentences.
 
 use num_complex::Complex64;
 
@@ -6,7 +6,7 @@ use num_complex::Complex64;
 const PLAIN: std::ops::Range<f64> = 1e-3..1e6;
 
 /// Formats `value` with `digits` significant digits.
-pub(crate) fn shown(value: f64, digits: usize) -> String {
+pub fn shown(value: f64, digits: usize) -> String {
     if value == 0.0 || !value.is_finite() {
         return if value == 0.0 { "0".to_owned() } else { value.to_string() };
     }
@@ -24,7 +24,7 @@ pub(crate) fn shown(value: f64, digits: usize) -> String {
 }
 
 /// Formats `value` with at most `digits` significant digits, without zeros at the end.
-pub(crate) fn trimmed(value: f64, digits: usize) -> String {
+pub fn trimmed(value: f64, digits: usize) -> String {
     let text = shown(value, digits);
     if !text.contains('.') || text.contains('e') {
         return text;
@@ -32,8 +32,13 @@ pub(crate) fn trimmed(value: f64, digits: usize) -> String {
     text.trim_end_matches('0').trim_end_matches('.').to_owned()
 }
 
+/// A number with its noun, as in "1 run" and "2 runs".
+pub fn counted(number: usize, what: &str) -> String {
+    format!("{number} {what}{}", if number == 1 { "" } else { "s" })
+}
+
 /// Formats a root with its mirror images, by the classes of the 1989 report.
-pub(crate) fn roots_of(z: Complex64, digits: usize) -> String {
+pub fn roots_of(z: Complex64, digits: usize) -> String {
     let s = z.sqrt();
     match lissom::beam::class(z) {
         lissom::beam::RootClass::Imaginary => format!("±j·{}", shown(s.im.abs(), digits)),
@@ -45,12 +50,12 @@ pub(crate) fn roots_of(z: Complex64, digits: usize) -> String {
 }
 
 /// A relative change in percent, with its sign.
-pub(crate) fn change(value: f64, from: f64) -> String {
+pub fn change(value: f64, from: f64) -> String {
     signed_percent(value / from - 1.0)
 }
 
 /// A share in percent, with its sign.
-pub(crate) fn signed_percent(share: f64) -> String {
+pub fn signed_percent(share: f64) -> String {
     let percent = 100.0 * share;
     if percent.abs() < 0.005 { "0 %".to_owned() } else { format!("{percent:+.2} %") }
 }

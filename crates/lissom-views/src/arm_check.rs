@@ -1,18 +1,8 @@
-//! Comparison of the identified arm with an arm.toml, in words: which number of the file explains the difference best.
+//! Comparison of the identified arm with an arm.toml, in words and as a section of the page: which number of
+//! the file explains the difference best.
 
 use lissom::identify::{ArmQuantity, Explanation, GeometryCheck};
 use lissom_report::{Cells, Page, Table, interval, with_uncertainty};
-
-use super::printer;
-
-/// Prints the comparison.
-pub(crate) fn print(check: Option<&GeometryCheck>) {
-    let Some(check) = check else { return };
-    printer::line("");
-    for line in lines(check) {
-        printer::line(&line);
-    }
-}
 
 /// Adds the comparison to the HTML page.
 pub(crate) fn section(page: Page, check: Option<&GeometryCheck>) -> Page {
@@ -52,7 +42,8 @@ fn sentence(line: &str) -> String {
     format!("{first}{}.", letters.as_str())
 }
 
-fn lines(check: &GeometryCheck) -> Vec<String> {
+/// The comparison in words, without a capital letter and a full stop.
+pub fn lines(check: &GeometryCheck) -> Vec<String> {
     let before = percent(check.before);
     let compared = "inertia, frequencies and couplings";
     if check.agrees() {

@@ -5,28 +5,26 @@ use lissom::identify::{GeometryCheck, Identified, geometry_check};
 use lissom::load::GravityLoad;
 use lissom_io::{CampaignFile, DriveSpec};
 
-use crate::shared::failure::Failure;
-
 /// Known parameters of the machine, from an `arm.toml` or a virtual rig.
 #[derive(Debug, Clone)]
-pub(crate) struct Reference {
+pub struct Reference {
     /// Name in plots and tables.
-    pub(crate) label: &'static str,
+    pub label: &'static str,
     /// Friction forward and backward \[N·m\].
-    pub(crate) coulomb_nm: (f64, f64),
+    pub coulomb_nm: (f64, f64),
     /// Viscous friction \[N·m·s/rad\].
-    pub(crate) viscous_nm_s_per_rad: f64,
+    pub viscous_nm_s_per_rad: f64,
     /// Inertia \[kg·m²\].
-    pub(crate) inertia_kg_m2: f64,
+    pub inertia_kg_m2: f64,
     /// Gravity of an unbalanced load on the motor.
-    pub(crate) gravity: Option<GravityLoad>,
+    pub gravity: Option<GravityLoad>,
     /// The whole arm, if the beam is known too.
-    pub(crate) arm: Option<Arm>,
+    pub arm: Option<Arm>,
 }
 
 impl Reference {
     /// The true parameters of a virtual rig.
-    pub(crate) fn truth(arm: &Arm) -> Self {
+    pub fn truth(arm: &Arm) -> Self {
         Self {
             label: "truth",
             coulomb_nm: (arm.coulomb.forward(), arm.coulomb.backward()),
@@ -38,10 +36,13 @@ impl Reference {
     }
 
     /// The arm.toml that a campaign gives for comparison; `None` if it gives none, or one without a drive.
-    pub(crate) fn of(file: &CampaignFile) -> Result<Option<Self>, Failure> {
+    ///
+    /// # Errors
+    /// [`lissom_io::Error::Arm`] if its numbers do not make an arm.
+    pub fn of(file: &CampaignFile) -> Result<Option<Self>, lissom_io::Error> {
         let Some(arm) = &file.known.arm else { return Ok(None) };
         let Some(drive) = &arm.drive else { return Ok(None) };
-        let whole = file.described_arm().map_err(lissom_io::Error::from)?;
+        let whole = file.described_arm()?;
         let gravity = arm.load.map(|load| load.gravity());
         Ok(Some(Self { gravity, ..Self::drive(drive, whole) }))
     }
@@ -58,8 +59,9 @@ impl Reference {
     }
 }
 
-/// Compares the identified arm with the arm.toml that a campaign gives.
-pub(crate) fn checked(id: &Identified, reference: Option<&Reference>) -> Option<GeometryCheck> {
+/// Compares the identified arm with the arm.toml that a campaign gives; `None` if it gives none, or if the output-error
+/// method has no solution.
+pub fn checked(id: &Identified, reference: Option<&Reference>) -> Option<GeometryCheck> {
     let arm = reference?.arm.as_ref()?;
     geometry_check(arm, id.output_error.as_ref().filter(|oe| oe.stands())?)
 }

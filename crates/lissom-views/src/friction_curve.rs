@@ -11,7 +11,7 @@ const DIRECTIONS: [(&str, f64, Role); 2] =
     [("forward", 1.0, Role::Corrected), ("backward", -1.0, Role::Other(0))];
 
 /// Plot of both directions as magnitudes over speed, with the friction law of the result; `None` without a curve.
-pub(crate) fn plot(names: UnitNames, id: &Identified) -> Option<LinePlot> {
+pub fn plot(names: UnitNames, id: &Identified) -> Option<LinePlot> {
     let law = id.friction_law.as_ref().filter(|law| !law.curve.is_empty())?;
     let mut plot = LinePlot::new(
         "Friction against speed",
@@ -40,7 +40,7 @@ pub(crate) fn plot(names: UnitNames, id: &Identified) -> Option<LinePlot> {
 }
 
 /// Table of all terms that were tried, with the numbers of the tests.
-pub(crate) fn table(names: UnitNames, law: &FrictionLaw) -> Table {
+pub fn table(names: UnitNames, law: &FrictionLaw) -> Table {
     let mut table = Table::new(
         "Terms tried in addition to Coulomb friction, one viscous coefficient and an offset",
         &[

@@ -1,30 +1,12 @@
-//! Bode plots of the responses and of the fit.
+//! Bode plots of an equivalent arm: the responses, and the fit.
 
-use lissom::identify::{Equivalent, Response, StdSource};
-use lissom_io::write::Batch;
+use lissom::identify::{Equivalent, EquivalentData, Response, StdSource};
+use lissom_io::UnitNames;
 use lissom_report::{BodePlot, FrequencyAxis, Role, Series, Style};
 use num_complex::Complex64;
 
-use super::plot_file::Picture;
-use crate::shared::failure::Failure;
-use crate::tasks::equivalent_input::Input;
-
 /// Number of points on the line of a model.
 const LINE: i32 = 1500;
-
-/// Adds the plot of the points, and that of the motor if there is one.
-pub(crate) fn add_all(
-    batch: &mut Batch,
-    picture: &Picture,
-    input: &Input,
-    found: &Equivalent,
-) -> Result<(), Failure> {
-    picture.draw(batch, &points(input, found))?;
-    if let Some(plot) = motor(input, found) {
-        picture.beside("motor").draw(batch, &plot)?;
-    }
-    Ok(())
-}
 
 fn grid(omega_rad_s: &[f64]) -> Vec<f64> {
     let low = omega_rad_s.iter().copied().fold(f64::INFINITY, f64::min);
@@ -39,12 +21,12 @@ fn measured(label: &str, role: Role, omega_rad_s: &[f64], all: &[Response], bars
     if bars { series.with_std(all.iter().map(|r| r.std).collect()) } else { series }
 }
 
-fn with_bars(input: &Input) -> bool {
-    input.data.std_source != StdSource::FromResidual
+fn with_bars(data: &EquivalentData) -> bool {
+    data.std_source != StdSource::FromResidual
 }
 
-fn points(input: &Input, found: &Equivalent) -> BodePlot {
-    let data = &input.data;
+/// Plot of the points of the beam per motor angle, with the fit.
+pub fn points(data: &EquivalentData, found: &Equivalent) -> BodePlot {
     let roles = [Role::Corrected, Role::Raw];
     let role = |i: usize| match roles.get(i) {
         Some(role) => *role,
@@ -55,7 +37,7 @@ fn points(input: &Input, found: &Equivalent) -> BodePlot {
         .frequency_axis(FrequencyAxis::Both);
     let grid = grid(&data.omega_rad_s);
     for (i, name) in data.names.iter().enumerate() {
-        let bars = with_bars(input);
+        let bars = with_bars(data);
         plot = plot.series(measured(name, role(i), &data.omega_rad_s, &data.outputs[i], bars));
     }
     for i in 0..data.names.len() {
@@ -65,13 +47,14 @@ fn points(input: &Input, found: &Equivalent) -> BodePlot {
     plot
 }
 
-fn motor(input: &Input, found: &Equivalent) -> Option<BodePlot> {
-    let (motor, arm) = (input.data.motor.as_ref()?, found.arm.as_ref()?);
-    let unit = format!("{}/{}", input.names.angle(), input.names.command_unit());
+/// Plot of the motor's response, with that of the equivalent arm; `None` if the motor's response is not given.
+pub fn motor(data: &EquivalentData, names: UnitNames, found: &Equivalent) -> Option<BodePlot> {
+    let (motor, arm) = (data.motor.as_ref()?, found.arm.as_ref()?);
+    let unit = format!("{}/{}", names.angle(), names.command_unit());
     let grid = grid(&motor.omega_rad_s);
     let line = grid.iter().map(|w| arm.motor_response(*w)).collect();
-    let bars = with_bars(input);
-    let title = format!("Motor: {} per {}", input.names.motion(), input.names.command_name());
+    let bars = with_bars(data);
+    let title = format!("Motor: {} per {}", names.motion(), names.command_name());
     Some(
         BodePlot::new(title, unit)
             .frequency_axis(FrequencyAxis::Both)

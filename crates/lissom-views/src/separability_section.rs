@@ -1,24 +1,9 @@
-//! The verdict: which parameters the logs identify, in words and on the report page.
+//! The verdict: which parameters the logs identify, on the report page.
 
 use lissom::identify::{Identified, Separability};
 use lissom::plan::percent;
-use lissom::record::Axis;
 use lissom_io::UnitNames;
 use lissom_report::{Cells, Page, Table};
-
-use super::printer::line;
-
-/// Prints the verdict in words.
-pub(crate) fn print(axis: Axis, id: &Identified) {
-    let words = id.separability.as_ref().map_or(Vec::new(), |found| found.words(axis));
-    if words.is_empty() {
-        return;
-    }
-    line("\nverdict: what the logs identify");
-    for text in words {
-        line(&format!("  {text}"));
-    }
-}
 
 /// Adds the verdict to the page: the words, the standard errors, and the contribution of each run.
 pub(crate) fn section(page: Page, names: UnitNames, id: &Identified) -> Page {

@@ -6,13 +6,13 @@ use lissom_io::UnitNames;
 use lissom_report::{BodePlot, Role, Series, Style};
 use num_complex::Complex64;
 
-use crate::tasks::known_arm::Reference;
+use crate::known_arm::Reference;
 
 /// Number of points on the line of a model.
 const LINE: i32 = 1200;
 
 /// The plots of motor and tips, each with its file name. `reference` adds a line for a known arm.
-pub(crate) fn bode_plots(
+pub fn bode_plots(
     channels: &Channels,
     names: UnitNames,
     id: &Identified,

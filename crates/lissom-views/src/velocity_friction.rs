@@ -1,16 +1,12 @@
-//! Plot of friction from constant velocities.
+//! Friction from constant velocities: plot, and table of the stretches.
 
 use lissom::identify::{Identified, LineShape};
 use lissom::record::Channels;
 use lissom_io::UnitNames;
-use lissom_report::{Axis, LinePlot, Role, Trace, TraceStyle, with_uncertainty};
+use lissom_report::{Axis, Cells, LinePlot, Role, Table, Trace, TraceStyle, with_uncertainty};
 
 /// Plot of command over velocity, both directions as magnitudes, with straight lines extrapolated to zero speed.
-pub(crate) fn friction_plot(
-    channels: &Channels,
-    names: UnitNames,
-    id: &Identified,
-) -> Option<LinePlot> {
+pub fn friction_plot(channels: &Channels, names: UnitNames, id: &Identified) -> Option<LinePlot> {
     let found = id.constant_velocity.as_ref()?;
     let constant = id.torque_per_command.unwrap_or(1.0);
     let unit = names.command_unit();
@@ -63,4 +59,32 @@ pub(crate) fn friction_plot(
         ));
     }
     (!found.points.is_empty()).then_some(plot)
+}
+
+/// Table of all stretches at a constant velocity.
+pub fn stretch_table(names: UnitNames, id: &Identified) -> Table {
+    let velocity = format!("velocity ({}/s)", names.angle());
+    let command = format!("{} ({})", names.command_name(), names.command_unit());
+    let mut table = Table::new(
+        "Stretches at a constant velocity",
+        &[
+            ("run", Cells::Text),
+            ("from (s)", Cells::Numbers),
+            ("to (s)", Cells::Numbers),
+            (&velocity, Cells::Numbers),
+            (&command, Cells::Numbers),
+            ("standard error", Cells::Numbers),
+        ],
+    );
+    for p in id.constant_velocity.iter().flat_map(|c| &c.points) {
+        table = table.row([
+            id.runs[p.run].name.clone(),
+            format!("{:.3}", p.start_s),
+            format!("{:.3}", p.end_s),
+            format!("{:.5}", p.velocity.value),
+            format!("{:.5}", p.command.value),
+            format!("{:.5}", p.command.std),
+        ]);
+    }
+    table
 }

@@ -1,47 +1,34 @@
 //! Plots of a validation.
 
-use std::path::Path;
-
 use lissom::identify::{ChannelResidual, PredictedStretch, TorqueRun, Validation};
 use lissom::record::Campaign;
-use lissom_io::write::Batch;
 use lissom_io::{UnitNames, channel_name_unit};
 use lissom_report::{Axis, Band, LinePlot, Role, Trace, TraceStyle};
 
-use super::plot_file::add;
-use crate::shared::failure::Failure;
+use crate::named_figure::NamedFigure;
 
-/// Adds plots of torque, motion, residuals and correlations for the run with the largest residual.
-pub(crate) fn add_all(
-    batch: &mut Batch,
-    folder: &Path,
-    campaign: &Campaign,
-    validation: &Validation,
-) -> Result<(), Failure> {
-    batch.folder(folder)?;
+/// Plots of torque, motion, residuals and correlations for the run with the largest residual, each with its name: `torque`, `motion-motor` and others.
+pub fn validation_plots(campaign: &Campaign, validation: &Validation) -> Vec<NamedFigure> {
     let names = UnitNames::new(&campaign.channels);
+    let mut plots = Vec::new();
+    let mut add = |name: String, plot: LinePlot| plots.push(NamedFigure::new(name, plot));
     if let Some(run) = validation.torque.as_ref().and_then(|t| worst(&t.runs)) {
         let name = campaign.runs[run.run].name();
-        add(batch, folder, "torque", &torque(names, name, run))?;
-        add(batch, folder, "torque-residual", &torque_residual(names, name, run))?;
+        add("torque".to_owned(), torque(names, name, run));
+        add("torque-residual".to_owned(), torque_residual(names, name, run));
     }
     for (c, residual) in validation.residuals.iter().enumerate() {
         let file = if c == 0 { "motor".to_owned() } else { format!("tip-{c}") };
         if let Some(run) = worst_motion(campaign, validation, c) {
             let [motion, left] = motion(campaign, validation, run, c);
-            add(batch, folder, &format!("motion-{file}"), &motion)?;
-            add(batch, folder, &format!("residual-{file}"), &left)?;
+            add(format!("motion-{file}"), motion);
+            add(format!("residual-{file}"), left);
         }
         let (name, _) = channel_name_unit(&campaign.channels, c);
-        add(batch, folder, &format!("autocorrelation-{file}"), &autocorrelation(name, residual))?;
-        add(
-            batch,
-            folder,
-            &format!("cross-correlation-{file}"),
-            &cross_correlation(name, residual),
-        )?;
+        add(format!("autocorrelation-{file}"), autocorrelation(name, residual));
+        add(format!("cross-correlation-{file}"), cross_correlation(name, residual));
     }
-    Ok(())
+    plots
 }
 
 fn worst(runs: &[TorqueRun]) -> Option<&TorqueRun> {
