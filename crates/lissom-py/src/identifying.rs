@@ -9,11 +9,11 @@ use lissom::Identify;
 use lissom::identify::{Effort, Interrupt, Stage};
 use lissom::io::{CampaignFile, write};
 use pyo3::prelude::*;
-use pyo3::types::PyBytes;
 
 use crate::campaign::NativeCampaign;
 use crate::errors::input_error;
-use crate::worker::{self, Ended, Outcome};
+use crate::found::NativeFound;
+use crate::worker::{self, Done, Ended, Outcome};
 
 /// Names of the stages in progress, with the share of all work before each. The search takes most of the time.
 const STAGES: [(&str, f64); 5] = [
@@ -45,11 +45,11 @@ fn index(stage: Stage) -> usize {
     }
 }
 
-/// The bytes of a result, or the exception that stopped the work with what ends later.
-type Identified<'py> = (Option<Bound<'py, PyBytes>>, Option<(PyErr, worker::Pending)>);
+/// A result, or the exception that stopped the work with what ends later.
+type Identified<'py> = (Option<Done<'py>>, Option<(PyErr, worker::Pending)>);
 
-/// Identifies a campaign: the bytes of its result.json, and nothing; or, if it was stopped, the exception and what ends
-/// later.
+/// Identifies a campaign: the bytes of its result.json with what was found, and nothing; or, if it was stopped, the exception
+/// and what ends later.
 #[pyfunction]
 #[pyo3(signature = (campaign, effort, window_s=None, time_limit_s=None, threads=None, progress=None))]
 pub(crate) fn identify<'py>(
@@ -72,7 +72,7 @@ pub(crate) fn identify<'py>(
         let (file, interrupt, reached) =
             (Arc::clone(&campaign.file), interrupt.clone(), Arc::clone(&reached));
         move || {
-            let work = || identified(&file, effort, window_s, interrupt, &reached);
+            let work = || identified(file, effort, window_s, interrupt, &reached);
             in_threads(threads, work)
         }
     };
@@ -90,25 +90,25 @@ pub(crate) fn identify<'py>(
         py.check_signals()
     };
     match worker::run(py, &interrupt, work, show)? {
-        Ended::Done(bytes) => {
+        Ended::Done(done) => {
             if let Some(progress) = progress {
                 progress.call1(("done", 1.0))?;
             }
-            Ok((Some(bytes), None))
+            Ok((Some(done), None))
         }
         Ended::Stopped(error, pending) => Ok((None, Some((error, pending)))),
     }
 }
 
-/// The text of the result, the same as the command writes.
+/// The text of the result, the same as the command writes, and what was found.
 fn identified(
-    file: &CampaignFile,
+    file: Arc<CampaignFile>,
     effort: Effort,
     window_s: Option<f64>,
     interrupt: Interrupt,
     reached: &AtomicUsize,
 ) -> Outcome {
-    let mut identify = Identify::of_file(file).effort(effort).interrupt(interrupt);
+    let mut identify = Identify::of_file(&file).effort(effort).interrupt(interrupt);
     if let Some(window_s) = window_s {
         identify = identify.window_s(window_s);
     }
@@ -117,7 +117,8 @@ fn identified(
     if let Some(arm) = file.described_arm()? {
         found = found.compared_with(&arm);
     }
-    Ok(write::json_text(Path::new("result"), &found.file())?)
+    let text = write::json_text(Path::new("result"), &found.file())?;
+    Ok((text, NativeFound::new(file, found)))
 }
 
 /// Runs work with so many threads; with all of the machine if the number is not given or they cannot be had.

@@ -13,6 +13,7 @@ mod comparing;
 mod describing;
 mod errors;
 mod exporting;
+mod found;
 mod identifying;
 mod inspecting;
 mod planning;
@@ -36,6 +37,8 @@ mod _lissom {
     use crate::describing::describe;
     #[pymodule_export]
     use crate::exporting::export;
+    #[pymodule_export]
+    use crate::found::NativeFound;
     #[pymodule_export]
     use crate::identifying::identify;
     #[pymodule_export]

@@ -10,12 +10,16 @@ use pyo3::prelude::*;
 use pyo3::types::PyBytes;
 
 use crate::errors::{internal_error, raised};
+use crate::found::NativeFound;
 
 /// Time between two looks at signals.
 const TICK: Duration = Duration::from_millis(50);
 
-/// What the work gives: the text of a `result.json`.
-pub(crate) type Outcome = Result<String, lissom::Error>;
+/// What the work gives: the text of a `result.json`, and what was found.
+pub(crate) type Outcome = Result<(String, NativeFound), lissom::Error>;
+
+/// The bytes of a `result.json`, and what was found.
+pub(crate) type Done<'py> = (Bound<'py, PyBytes>, NativeFound);
 
 /// Work that was interrupted and ends soon with its best result so far.
 #[pyclass(frozen, module = "lissom._lissom")]
@@ -25,18 +29,18 @@ pub(crate) struct Pending {
 
 #[pymethods]
 impl Pending {
-    /// Waits for the best result so far: the bytes of a result.json. Call it once.
-    fn wait<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyBytes>> {
+    /// Waits for the best result so far: the bytes of a result.json, and what was found. Call it once.
+    fn wait<'py>(&self, py: Python<'py>) -> PyResult<Done<'py>> {
         let outcome =
             py.detach(|| self.outcome.lock().unwrap_or_else(PoisonError::into_inner).recv());
-        bytes(py, outcome.map_err(|_| internal_error())?)
+        done(py, outcome.map_err(|_| internal_error())?)
     }
 }
 
-/// How work ended: with the bytes of a result, or by Ctrl-C or an error of the function that shows progress.
+/// How work ended: with a result, or by Ctrl-C or an error of the function that shows progress.
 pub(crate) enum Ended<'py> {
     /// With a result.
-    Done(Bound<'py, PyBytes>),
+    Done(Done<'py>),
     /// By an exception; the best result so far follows.
     Stopped(PyErr, Pending),
 }
@@ -58,7 +62,7 @@ pub(crate) fn run<'py>(
         let next =
             py.detach(|| outcome.lock().unwrap_or_else(PoisonError::into_inner).recv_timeout(TICK));
         match next {
-            Ok(found) => return bytes(py, found).map(Ended::Done),
+            Ok(found) => return done(py, found).map(Ended::Done),
             Err(RecvTimeoutError::Disconnected) => return Err(internal_error()),
             Err(RecvTimeoutError::Timeout) => {
                 if let Err(error) = py.check_signals().and_then(|()| show(py)) {
@@ -70,7 +74,7 @@ pub(crate) fn run<'py>(
     }
 }
 
-fn bytes(py: Python<'_>, outcome: Outcome) -> PyResult<Bound<'_, PyBytes>> {
-    let text = outcome.map_err(|error| raised(py, error))?;
-    Ok(PyBytes::new(py, text.as_bytes()))
+fn done(py: Python<'_>, outcome: Outcome) -> PyResult<Done<'_>> {
+    let (text, found) = outcome.map_err(|error| raised(py, error))?;
+    Ok((PyBytes::new(py, text.as_bytes()), found))
 }

@@ -47,6 +47,30 @@ def test_text_and_html_have_every_parameter(result: lissom.Result) -> None:
     assert "<script" not in html
 
 
+def test_the_page_and_the_figures_are_those_of_the_logs(result: lissom.Result, tmp_path: Path) -> None:
+    path = tmp_path / "axis 1.html"
+    result.report(path)
+    page = path.read_text()
+    assert "<h1>axis 1</h1>" in page and page.rstrip().endswith("</html>")
+    assert "Coulomb friction" in page and "Frequency responses" in page
+    for named in ("lissom identify", "lissom equivalent", "--quick"):
+        assert named not in page
+    html = result._repr_html_()
+    assert html.count("<svg xmlns") == 2 and "Friction against speed" in html
+    assert [file.name for file in tmp_path.iterdir()] == ["axis 1.html"]
+    with pytest.raises(lissom.FileError):
+        result.report(tmp_path / "missing" / "axis.html")
+
+
+def test_a_result_without_logs_has_no_page(result: lissom.Result, tmp_path: Path) -> None:
+    for other in (lissom.Result(bytes(result)), pickle.loads(pickle.dumps(result))):
+        assert other == result and "<svg" not in other._repr_html_()
+        with pytest.raises(lissom.InputError) as caught:
+            other.report(tmp_path / "report.html")
+        assert "identify the logs again" in caught.value.hint
+    assert not list(tmp_path.iterdir())
+
+
 def test_html_shows_names_of_logs_as_text(result: lissom.Result) -> None:
     content = result.to_dict()
     content["findings"][0] |= {"severity": "warning", "run": "<script>alert(1)</script>"}

@@ -97,5 +97,5 @@ class Interrupted(KeyboardInterrupt):
             from ._result import Result
 
             pending, self._pending = self._pending, None
-            self._result = Result.from_bytes(pending.wait())
+            self._result = Result._of(*pending.wait())
         return self._result

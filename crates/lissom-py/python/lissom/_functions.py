@@ -76,13 +76,13 @@ def identify(
     for name, seconds in (("window", window), ("time_limit", time_limit)):
         if seconds is not None and not seconds > 0:
             raise InputError(f"{name} is {seconds} s; it must be positive")
-    data, stopped = _lissom.identify(campaign._read(), effort, window, time_limit, threads, progress)
+    done, stopped = _lissom.identify(campaign._read(), effort, window, time_limit, threads, progress)
     if stopped is not None:
         error, pending = stopped
         if isinstance(error, KeyboardInterrupt):
             raise Interrupted(pending) from None
         raise error
-    result = Result(cast("bytes", data))
+    result = Result._of(*cast("tuple[bytes, _lissom.Found]", done))
     missing = refused(result, require)
     if missing:
         affecting = tuple(f for f in result.findings if f.severity == "refusal")

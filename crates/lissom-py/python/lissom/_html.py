@@ -10,10 +10,12 @@ if TYPE_CHECKING:
     from ._result import Result
 
 _CELL = "text-align:left"
+#: The figures that are shown.
+_SHOWN = ("bode-motor", "friction-curve")
 
 
-def result_html(result: Result, rows: list[Row]) -> str:
-    """Write the table and the findings of a result as HTML, without a script.
+def result_html(result: Result, rows: list[Row], figures: list[tuple[str, str]]) -> str:
+    """Write the table, the findings and two figures of a result as HTML, without a script.
 
     Parameters
     ----------
@@ -21,6 +23,8 @@ def result_html(result: Result, rows: list[Row]) -> str:
         The result.
     rows : list
         Its parameters.
+    figures : list
+        Its figures: names and SVG.
 
     Returns
     -------
@@ -43,4 +47,5 @@ def result_html(result: Result, rows: list[Row]) -> str:
             hint = f"<br><i>{escape(finding.hint)}</i>" if finding.hint else ""
             lines.append(f"<li><b>{finding.severity}</b> [{escape(finding.code)}] {run}{escape(finding.message)}{hint}</li>")
         lines.append("</ul>")
+    lines += [f"<div>{svg}</div>" for name, svg in figures if name in _SHOWN]
     return "".join(lines)

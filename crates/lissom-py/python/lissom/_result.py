@@ -51,6 +51,14 @@ class Result:
             for key, _, unit, found, _ in rows
         }
         self._rows = rows
+        self._found: _lissom.Found | None = None
+
+    @classmethod
+    def _of(cls, data: bytes, found: _lissom.Found) -> Result:
+        """Make a result with the logs that it is from."""
+        result = cls(data)
+        result._found = found
+        return result
 
     @classmethod
     def from_bytes(cls, data: bytes) -> Result:
@@ -100,6 +108,24 @@ class Result:
             The file; one that exists is replaced.
         """
         _write(path, self._data)
+
+    def report(self, path: Path) -> None:
+        """Write the report page: parameters, figures, tables and findings as one HTML file, whole or not at all.
+
+        Parameters
+        ----------
+        path : path
+            The file; one that exists is replaced.
+
+        Raises
+        ------
+        InputError
+            If the result was read from a file or unpickled: only `identify` gives a result with its logs.
+        """
+        if self._found is None:
+            message = "the report page needs the logs of the result"
+            raise InputError(message, "identify the logs again: a result that was read from a file has no logs")
+        _write(path, self._found.report(FilePath(path).stem).encode())
 
     @property
     def friction(self) -> Mapping[str, Estimate | None]:
@@ -403,7 +429,7 @@ class Result:
     def _repr_html_(self) -> str:
         from ._html import result_html
 
-        return result_html(self, self._rows)
+        return result_html(self, self._rows, self._found.figures() if self._found else [])
 
     def __eq__(self, other: object) -> bool:
         return self._data == other._data if isinstance(other, Result) else NotImplemented
