@@ -13,6 +13,7 @@ use crate::errors::raised;
 /// other texts; `drive` the keys of `[drive]`.
 #[pyfunction]
 #[pyo3(signature = (logs, said, tips, drive, gravity, header_row=None, skip_rows=0))]
+#[expect(clippy::too_many_arguments, reason = "options of a Python function")]
 pub(crate) fn describe(
     py: Python<'_>,
     logs: Vec<PathBuf>,

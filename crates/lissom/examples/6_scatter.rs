@@ -31,7 +31,7 @@ fn main() -> Result<(), lissom::Error> {
     for seed in 0..campaigns {
         // Sines at ω and 3ω: rad/s, rad, s.
         let sines = [3.0, 9.0].map(|omega| Experiment::sine(omega, 0.5, 12.0));
-        let logs = rig.campaign_from_seed(sines, 1000 * seed)?;
+        let logs = rig.campaign_from_seed(1000 * seed, sines)?;
         inertia.extend(Identify::new(&logs).effort(Effort::Quick).run()?.inertia());
     }
     let took_s = begin.elapsed().as_secs_f64();

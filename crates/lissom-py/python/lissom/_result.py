@@ -16,6 +16,7 @@ from numpy.typing import NDArray
 from . import _lissom
 from ._errors import FileError, InputError
 from ._estimate import Estimate
+from ._files import write_whole
 from ._finding import Finding
 from ._plots import ResultPlots
 from ._tables import Path
@@ -107,7 +108,7 @@ class Result:
         path : path
             The file; one that exists is replaced.
         """
-        _write(path, self._data)
+        write_whole(path, self._data)
 
     def report(self, path: Path) -> None:
         """Write the report page: parameters, figures, tables and findings as one HTML file, whole or not at all.
@@ -125,7 +126,7 @@ class Result:
         if self._found is None:
             message = "the report page needs the logs of the result"
             raise InputError(message, "identify the logs again: a result that was read from a file has no logs")
-        _write(path, self._found.report(FilePath(path).stem).encode())
+        write_whole(path, self._found.report(FilePath(path).stem).encode())
 
     @property
     def friction(self) -> Mapping[str, Estimate | None]:
@@ -386,7 +387,7 @@ class Result:
         path : path
             The new file.
         """
-        _write(path, self._exported("mat")[0][1])
+        write_whole(path, self._exported("mat")[0][1])
 
     def to_script(self, language: Literal["python", "m"] = "python") -> str:
         """Write a script that makes the models: for python-control, or for MATLAB and Octave.
@@ -420,7 +421,7 @@ class Result:
         made.mkdir(parents=True, exist_ok=True)
         files = self._exported("c")
         for name, data in files:
-            _write(made / name, data)
+            write_whole(made / name, data)
         return [made / name for name, _ in files]
 
     def __repr__(self) -> str:
@@ -486,20 +487,6 @@ _Array = TypeVar("_Array", bound="NDArray[Any]")
 def _fixed(array: _Array) -> _Array:
     array.flags.writeable = False
     return array
-
-
-def _write(path: Path, data: bytes) -> None:
-    """Write a file whole or not at all."""
-    target = FilePath(path)
-    part = target.with_name(f".{target.name}.{os.getpid()}.part")
-    try:
-        try:
-            part.write_bytes(data)
-            os.replace(part, target)
-        finally:
-            part.unlink(missing_ok=True)
-    except OSError as error:
-        raise FileError(f"{target}: {error.strerror}", "check the folder and its permissions") from error
 
 
 def refused(result: Result, keys: Sequence[str]) -> list[str]:
