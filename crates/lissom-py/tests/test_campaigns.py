@@ -7,14 +7,13 @@ import pickle
 from pathlib import Path
 from typing import Any
 
+import lissom
 import numpy as np
 import pandas as pd
 import polars as pl
 import pyarrow as pa
 import pytest
 from conftest import SIGNALS
-
-import lissom
 
 ROWS = 2000
 T = np.arange(ROWS) * 1e-3
@@ -68,7 +67,10 @@ TIMES = {
         COLUMNS, index=pd.to_datetime(STAMPS, utc=True).tz_convert("Europe/Berlin").rename("t")
     ).drop(columns="t"),
     "polars": pl.DataFrame({**COLUMNS, "t": STAMPS}),
-    "python": {**COLUMNS, "t": [datetime.datetime(2026, 1, 1) + datetime.timedelta(microseconds=int(k)) for k in (T * 1e6).round()]},
+    "python": {
+        **COLUMNS,
+        "t": [datetime.datetime(2026, 1, 1) + datetime.timedelta(microseconds=int(k)) for k in (T * 1e6).round()],
+    },
 }
 
 
@@ -153,7 +155,9 @@ def test_names_with_any_character(tmp_path: Path) -> None:
     names = {'a "b" \\ c\u007f\n': "q", "ü::x": "i"}
     columns = {"t": T, **{name: COLUMNS[of] for name, of in names.items()}}
     first, second = names
-    campaign = lissom.Campaign(columns, time="t:s", motor=lissom.Signal(first, "rad"), current=lissom.Signal(second, "A"))
+    campaign = lissom.Campaign(
+        columns, time="t:s", motor=lissom.Signal(first, "rad"), current=lissom.Signal(second, "A")
+    )
     assert np.array_equal(campaign.runs[0].motor, COLUMNS["q"])
     with pytest.raises(lissom.InputError, match="characters"):
         lissom.Campaign(columns, time="t:s", motor=lissom.Signal("\ud800", "rad"), current="i:A").runs

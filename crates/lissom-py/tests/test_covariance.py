@@ -4,11 +4,10 @@ from __future__ import annotations
 
 from typing import Any
 
+import lissom
 import numpy as np
 import pytest
 from conftest import ARM, PLAN, SIGNALS
-
-import lissom
 
 KEYS = ["friction.coulomb_nm", "friction.viscous_nm_s_per_rad", "drive.inertia_kg_m2"]
 CAMPAIGNS = 150

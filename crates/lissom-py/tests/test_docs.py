@@ -13,10 +13,9 @@ from collections.abc import Iterator
 from pathlib import Path
 from typing import Any
 
+import lissom
 import pytest
 from numpydoc.docscrape import FunctionDoc
-
-import lissom
 
 SOURCE = Path(__file__).parents[1] / "python"
 
@@ -35,7 +34,9 @@ def documented() -> Iterator[tuple[str, Any]]:
                     yield f"{name}.{key}", inner
 
 
-@pytest.mark.parametrize(("name", "item"), list(documented()), ids=lambda value: value if isinstance(value, str) else "")
+@pytest.mark.parametrize(
+    ("name", "item"), list(documented()), ids=lambda value: value if isinstance(value, str) else ""
+)
 def test_every_parameter_is_documented(name: str, item: Any) -> None:
     assert item.__doc__, name
     doc = FunctionDoc(item) if inspect.isfunction(item) else FunctionDoc(None, doc=inspect.getdoc(item))

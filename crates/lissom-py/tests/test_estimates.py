@@ -5,10 +5,9 @@ from __future__ import annotations
 import copy
 import pickle
 
+import lissom
 import numpy as np
 import pytest
-
-import lissom
 
 
 def test_an_estimate_is_a_float() -> None:

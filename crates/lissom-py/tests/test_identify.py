@@ -10,11 +10,10 @@ import time
 from pathlib import Path
 from typing import Any
 
+import lissom
 import numpy as np
 import pytest
 from conftest import COULOMB, INERTIA, SIGNALS, VISCOUS
-
-import lissom
 
 
 def test_the_parameters_are_those_that_were_simulated(result: lissom.Result) -> None:

@@ -6,10 +6,9 @@ import pickle
 from pathlib import Path
 from typing import Any
 
+import lissom
 import pytest
 from conftest import ARM, SIGNALS
-
-import lissom
 
 RIG: dict[str, Any] = {**ARM["rig"], "motor_sensor": {"counts_per_turn": 16384, "noise": "0.2 mrad"}}
 

@@ -2,10 +2,9 @@
 
 from __future__ import annotations
 
+import lissom
 import numpy as np
 import pytest
-
-import lissom
 
 matplotlib = pytest.importorskip("matplotlib")
 matplotlib.use("Agg")

@@ -7,10 +7,9 @@ import pickle
 from pathlib import Path
 from typing import Any
 
+import lissom
 import numpy as np
 import pytest
-
-import lissom
 from lissom._units import unit_of
 
 

@@ -91,8 +91,7 @@ fn results_are_in_different_units() {
         &["a.json", "nm.json"],
         "error: results in different units cannot be compared: a.json has a rotary axis and friction in A \
          (no torque constant), nm.json has a rotary axis and friction in N·m\n\
-         hint: give `torque_constant` in [drive] of every campaign or of none, and run `lissom identify` \
-         again",
+         hint: give `torque_constant` in [drive] of every campaign or of none, and identify again",
     );
     refuses(
         &bench,

@@ -12,10 +12,11 @@ Numbers are in SI units and rad/s; keys end with their unit, as in ``result["fri
 """
 
 from ._campaign import Campaign, Run
-from ._errors import FileError, InputError, Interrupted, LissomError, RefusedError
+from ._errors import FileError, InputError, LissomError, RefusedError
 from ._estimate import Estimate
 from ._finding import Finding
 from ._functions import compare, identify, inspect, plan, simulate, validate
+from ._interrupted import Interrupted
 from ._lissom import __version__
 from ._plan import Plan
 from ._plots import ResultPlots

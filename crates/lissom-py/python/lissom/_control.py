@@ -2,23 +2,32 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any
+from collections.abc import Mapping
+from typing import Any
 
 import numpy as np
+from numpy.typing import NDArray
 
 from ._errors import InputError
 
-if TYPE_CHECKING:
-    from ._result import Result
 
-
-def to_control(result: Result, output: str, kind: str) -> Any:
+def to_control(
+    models: dict[str, Any],
+    frequency: NDArray[np.float64],
+    responses: Mapping[str, NDArray[np.complex128]],
+    output: str,
+    kind: str,
+) -> Any:
     """Make a model of python-control.
 
     Parameters
     ----------
-    result : Result
-        The result.
+    models : dict
+        The linear models of a result.
+    frequency : array, shape (n,)
+        Frequencies of its responses [rad/s].
+    responses : mapping of str to array, shape (n,)
+        Its responses.
     output : str
         ``"motor"``, or the name of a tip.
     kind : {'ss', 'tf', 'frd'}
@@ -31,7 +40,6 @@ def to_control(result: Result, output: str, kind: str) -> Any:
     """
     import control  # type: ignore[import-untyped,unused-ignore]
 
-    models = result.to_dict()["models"]
     tips = {tip["name"]: tip for tip in models["tips"]}
     if output != "motor" and output not in tips:
         raise InputError(f"there is no output {output!r}; the outputs are {', '.join(['motor', *tips])}")
@@ -54,9 +62,9 @@ def to_control(result: Result, output: str, kind: str) -> Any:
             raise InputError(f"the result has no model of {output!r}", "its findings give the reason")
         return control.TransferFunction(model["num"], model["den"])
     if kind == "frd":
-        data = result.response["motor_corrected" if output == "motor" else output]
+        data = responses["motor_corrected" if output == "motor" else output]
         there = np.isfinite(data)
-        order = np.argsort(result.frequency[there], kind="stable")
-        omega, first = np.unique(result.frequency[there][order], return_index=True)
+        order = np.argsort(frequency[there], kind="stable")
+        omega, first = np.unique(frequency[there][order], return_index=True)
         return control.FrequencyResponseData(data[there][order][first], omega)
     raise InputError(f"kind is {kind!r}, and not ss, tf or frd")

@@ -6,8 +6,6 @@ from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
     from ._finding import Finding
-    from ._lissom import Pending
-    from ._result import Result
 
 
 class LissomError(Exception):
@@ -74,28 +72,3 @@ class RefusedError(LissomError, ValueError):
 
     def __reduce__(self) -> tuple[object, ...]:
         return (type(self), (self.args[0] if self.args else "", self.hint, self.findings))
-
-
-class Interrupted(KeyboardInterrupt):
-    """Ctrl-C while logs are identified; `result` is the best result so far.
-
-    Parameters
-    ----------
-    pending : object
-        The work, which ends soon.
-    """
-
-    def __init__(self, pending: Pending | None = None) -> None:
-        super().__init__("interrupted; `.result` is the best result so far")
-        self._pending = pending
-        self._result: Result | None = None
-
-    @property
-    def result(self) -> Result | None:
-        """The best result so far. Waits until the work has ended, which takes about a second."""
-        if self._pending is not None:
-            from ._result import Result
-
-            pending, self._pending = self._pending, None
-            self._result = Result._of(*pending.wait())
-        return self._result

@@ -12,7 +12,8 @@ from numpy.typing import NDArray
 
 from . import _lissom
 from ._campaign import Campaign
-from ._errors import InputError, Interrupted, RefusedError
+from ._errors import InputError, RefusedError
+from ._interrupted import Interrupted
 from ._plan import Plan
 from ._result import Result, refused
 from ._tables import Log, Path, columns, is_path

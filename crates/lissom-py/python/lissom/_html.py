@@ -6,21 +6,23 @@ from html import escape
 from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
+    from collections.abc import Sequence
+
+    from ._finding import Finding
     from ._lissom import _Row as Row
-    from ._result import Result
 
 _CELL = "text-align:left"
 #: The figures that are shown.
 _SHOWN = ("bode-motor", "friction-curve")
 
 
-def result_html(result: Result, rows: list[Row], figures: list[tuple[str, str]]) -> str:
+def result_html(findings: Sequence[Finding], rows: list[Row], figures: list[tuple[str, str]]) -> str:
     """Write the table, the findings and two figures of a result as HTML, without a script.
 
     Parameters
     ----------
-    result : Result
-        The result.
+    findings : sequence of Finding
+        Its findings.
     rows : list
         Its parameters.
     figures : list
@@ -39,13 +41,15 @@ def result_html(result: Result, rows: list[Row], figures: list[tuple[str, str]])
         cells = (name, value, margin, unit, ", ".join(warnings))
         lines.append("<tr>" + "".join(f'<td style="{_CELL}">{escape(cell)}</td>' for cell in cells) + "</tr>")
     lines.append("</tbody></table>")
-    matter = [finding for finding in result.findings if finding.severity != "info"]
+    matter = [finding for finding in findings if finding.severity != "info"]
     if matter:
         lines.append("<ul>")
         for finding in matter:
             run = f"{escape(finding.run)}: " if finding.run else ""
             hint = f"<br><i>{escape(finding.hint)}</i>" if finding.hint else ""
-            lines.append(f"<li><b>{finding.severity}</b> [{escape(finding.code)}] {run}{escape(finding.message)}{hint}</li>")
+            lines.append(
+                f"<li><b>{finding.severity}</b> [{escape(finding.code)}] {run}{escape(finding.message)}{hint}</li>"
+            )
         lines.append("</ul>")
     lines += [f"<div>{svg}</div>" for name, svg in figures if name in _SHOWN]
     return "".join(lines)

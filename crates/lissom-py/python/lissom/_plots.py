@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any
+from collections.abc import Mapping
+from typing import TYPE_CHECKING, Any, Protocol
 
 import numpy as np
 from numpy.typing import NDArray
@@ -12,9 +13,36 @@ from ._errors import InputError
 if TYPE_CHECKING:
     from matplotlib.axes import Axes  # type: ignore[import-not-found,unused-ignore]
 
-    from ._result import Result
+    from ._estimate import Estimate
 
 _RAW, _CORRECTED, _MODEL = "0.6", "C0", "C3"
+
+
+class Plotted(Protocol):
+    """What is drawn of a result."""
+
+    @property
+    def frequency(self) -> NDArray[np.float64]:
+        """Frequencies [rad/s]."""
+
+    @property
+    def response(self) -> Mapping[str, NDArray[np.complex128]]:
+        """Responses by name."""
+
+    @property
+    def response_std(self) -> Mapping[str, NDArray[np.float64]]:
+        """Their standard errors."""
+
+    @property
+    def response_vouched_for(self) -> NDArray[np.bool_]:
+        """Whether they are corrected with confidence."""
+
+    @property
+    def friction(self) -> Mapping[str, Estimate | None]:
+        """Friction."""
+
+    def to_dict(self) -> dict[str, Any]:
+        """Everything else."""
 
 
 class ResultPlots:
@@ -26,7 +54,7 @@ class ResultPlots:
         The result.
     """
 
-    def __init__(self, result: Result) -> None:
+    def __init__(self, result: Plotted) -> None:
         self._result = result
 
     def bode(self, output: str = "motor", ax: Any = None) -> NDArray[Any]:
@@ -114,7 +142,9 @@ class ResultPlots:
             style = {"fmt": "o", "color": _CORRECTED, "markersize": 4, "label": "at single speeds, without a law"}
             axes.errorbar(speeds, values, yerr=bars, **style)
         coulomb = next((e for key, e in self._result.friction.items() if key.startswith("coulomb_n") and e), None)
-        coulomb = coulomb or next((e for key, e in self._result.friction.items() if key.startswith("coulomb") and e), None)
+        coulomb = coulomb or next(
+            (e for key, e in self._result.friction.items() if key.startswith("coulomb") and e), None
+        )
         viscous = next((e for key, e in self._result.friction.items() if key.startswith("viscous_") and e), None)
         if coulomb is not None and viscous is not None:
             most = max((abs(speed) for speed in speeds), default=1.0)

@@ -342,7 +342,7 @@ class Result:
         """
         from ._control import to_control
 
-        model: control.StateSpace = to_control(self, output, kind)
+        model: control.StateSpace = to_control(self._root["models"], self.frequency, self.response, output, kind)
         return model
 
     def to_mjcf(self, joint: str | None = None, into: Path | None = None) -> str:
@@ -430,7 +430,7 @@ class Result:
     def _repr_html_(self) -> str:
         from ._html import result_html
 
-        return result_html(self, self._rows, self._found.figures() if self._found else [])
+        return result_html(self.findings, self._rows, self._found.figures() if self._found else [])
 
     def __eq__(self, other: object) -> bool:
         return self._data == other._data if isinstance(other, Result) else NotImplemented
@@ -475,9 +475,7 @@ def _is_estimate(value: object) -> bool:
 
 def _estimates(table: dict[str, Any]) -> dict[str, Estimate | None]:
     return {
-        key: Estimate._of(value, unit_of(key))
-        for key, value in table.items()
-        if value is None or _is_estimate(value)
+        key: Estimate._of(value, unit_of(key)) for key, value in table.items() if value is None or _is_estimate(value)
     }
 
 

@@ -62,9 +62,7 @@ class Signal:
         if isinstance(value, Signal):
             return value
         if not isinstance(value, str):
-            raise InputError(
-                f"a signal is a Signal or a text COLUMN:UNIT, not {value!r}", 'give it as in "q:deg"'
-            )
+            raise InputError(f"a signal is a Signal or a text COLUMN:UNIT, not {value!r}", 'give it as in "q:deg"')
         column, colon, unit = value.rpartition(":")
         if not colon or not column or not unit:
             raise InputError(

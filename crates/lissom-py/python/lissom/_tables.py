@@ -160,7 +160,9 @@ def _of_objects(array: NDArray[Any], what: str) -> NDArray[np.float64] | list[st
     if there and all(isinstance(value, str) for value in there):
         return ["" if gone else value for value, gone in zip(array, missing, strict=True)]
     if there and all(isinstance(value, datetime) for value in there):
-        since = [math.nan if gone else (value - there[0]).total_seconds() for value, gone in zip(array, missing, strict=True)]
+        since = [
+            math.nan if gone else (value - there[0]).total_seconds() for value, gone in zip(array, missing, strict=True)
+        ]
         return np.array(since)
     numbers = np.full(len(array), np.nan)
     for row, (value, gone) in enumerate(zip(array, missing, strict=True)):
@@ -177,7 +179,11 @@ def _of_objects(array: NDArray[Any], what: str) -> NDArray[np.float64] | list[st
 
 def _is_missing(value: object) -> bool:
     """Whether a value is None, NaN, or the missing value of pandas."""
-    return value is None or type(value).__name__ in ("NAType", "NaTType") or (isinstance(value, float) and math.isnan(value))
+    return (
+        value is None
+        or type(value).__name__ in ("NAType", "NaTType")
+        or (isinstance(value, float) and math.isnan(value))
+    )
 
 
 def several(runs: Log | Sequence[Log]) -> list[Log]:
