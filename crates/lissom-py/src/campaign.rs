@@ -9,7 +9,7 @@ use pyo3::prelude::*;
 use pyo3::types::PyDict;
 
 use crate::columns::{Column, table};
-use crate::errors::raised;
+use crate::worker;
 
 /// A campaign that was read: immutable.
 #[pyclass(frozen, name = "Campaign", module = "lissom._lissom")]
@@ -78,7 +78,7 @@ impl NativeCampaign {
             Some(log) => reader.only(&log),
             None => reader,
         };
-        let file = py.detach(|| reader.read()).map_err(|error| raised(py, error))?;
+        let file = worker::wait(py, move || Ok(reader.read()?))?;
         Ok(Self { file: Arc::new(file) })
     }
 }

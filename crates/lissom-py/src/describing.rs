@@ -7,7 +7,7 @@ use lissom::DescribedLogs;
 use lissom::io::inspect::{Choice, CommandKey, Description};
 use pyo3::prelude::*;
 
-use crate::errors::raised;
+use crate::worker;
 
 /// The text of a campaign.toml, and what was taken from the log. `said` has channels by their roles as `COLUMN:UNIT`, and
 /// other texts; `drive` the keys of `[drive]`.
@@ -24,7 +24,7 @@ pub(crate) fn describe(
     header_row: Option<usize>,
     skip_rows: usize,
 ) -> PyResult<(String, Vec<String>)> {
-    let work = || -> Result<_, lissom::io::Error> {
+    let work = move || -> Result<_, lissom::Error> {
         let choice = |text: &String| Choice::parse(text);
         let role = |name: &str| said.get(name).map(choice).transpose();
         let text = |name: &str| said.get(name).cloned();
@@ -49,7 +49,7 @@ pub(crate) fn describe(
             header_row,
             skip_rows,
             hold: text("hold"),
-            drive: drive.clone(),
+            drive,
             gravity,
             mgl: text("mgl"),
             skip: text("skip"),
@@ -60,5 +60,5 @@ pub(crate) fn describe(
         let notes = found.log.notes.iter().cloned().chain(taken).collect();
         Ok((found.draft.text()?, notes))
     };
-    py.detach(work).map_err(|error| raised(py, error))
+    worker::wait(py, work)
 }

@@ -1,9 +1,10 @@
 //! What an identification found, with the logs that it is from: the report page and the figures.
 
+use std::path::Path;
 use std::sync::Arc;
 
-use lissom::Found;
-use lissom::io::CampaignFile;
+use lissom::io::{CampaignFile, PayloadFile, write};
+use lissom::{Found, Payloads, predict_payload};
 use lissom_views::known_arm::checked;
 use lissom_views::{ProgramHints, Reference, report_page, result_figures};
 use pyo3::prelude::*;
@@ -29,6 +30,25 @@ impl NativeFound {
             report_page::page(title, campaign, id, reference, described, ProgramHints::NONE)
         };
         Ok(py.detach(page))
+    }
+
+    /// Predicts other payloads: the text that `lissom payload --json` writes.
+    #[pyo3(signature = (mass_kg, to_kg, at_m=None, tip=None))]
+    fn payload(
+        &self,
+        py: Python<'_>,
+        mass_kg: f64,
+        to_kg: Vec<f64>,
+        at_m: Option<f64>,
+        tip: Option<String>,
+    ) -> PyResult<String> {
+        let asked = Payloads { mass_kg, to_kg, at_m, tip };
+        let (channels, id) = (&self.file.campaign.channels, self.found.identified());
+        let found = py
+            .detach(|| predict_payload(channels, id, &asked))
+            .map_err(|error| input_error(py, &error.to_string(), Some(error.hint())))?;
+        write::json_text(Path::new("payload"), &PayloadFile::of(&found))
+            .map_err(|error| raised(py, error))
     }
 
     /// The figures, each with its name and its SVG.

@@ -8,6 +8,7 @@ use pyo3::prelude::*;
 
 use crate::columns::{Column, table};
 use crate::errors::raised;
+use crate::worker;
 
 /// Describes a log: the text that `lissom inspect --json` writes.
 #[pyfunction]
@@ -19,7 +20,7 @@ pub(crate) fn inspect(
     skip_rows: usize,
 ) -> PyResult<String> {
     let options = TextOptions { header_row, skip_rows, ..TextOptions::default() };
-    let found = py.detach(|| inspect_with(&path, &options)).map_err(|error| raised(py, error))?;
+    let found = worker::wait(py, move || Ok(inspect_with(&path, &options)?))?;
     text(py, found)
 }
 
@@ -30,8 +31,8 @@ pub(crate) fn inspect_columns(
     name: &str,
     columns: Vec<(String, Column<'_>)>,
 ) -> PyResult<String> {
-    let log = table(&columns);
-    let found = py.detach(|| inspect_data(name, log));
+    let (log, name) = (table(&columns), name.to_owned());
+    let found = worker::wait(py, move || Ok(inspect_data(&name, log)))?;
     text(py, found)
 }
 

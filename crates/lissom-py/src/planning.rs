@@ -7,8 +7,9 @@ use lissom::io::{ArmFile, PlannedFile, write};
 use lissom::plan::{Kinds, Precision, Wishes};
 use pyo3::prelude::*;
 
-use crate::errors::{input_error, raised};
+use crate::errors::input_error;
 use crate::simulating::text;
+use crate::worker;
 
 /// Plans experiments: the text that `lissom plan --json` writes, and the plan.toml. `precision` has relative standard
 /// errors by the names of parameters, `all` for all except damping.
@@ -45,7 +46,7 @@ pub(crate) fn plan(
         kinds,
     };
     let (path, arm) = text(py, arm_path, arm_text, "arm")?;
-    py.detach(|| planned(&path, &arm, &wishes)).map_err(|error| raised(py, error))
+    worker::wait(py, move || planned(&path, &arm, &wishes))
 }
 
 fn precision_of(py: Python<'_>, wanted: &HashMap<String, f64>) -> PyResult<Precision> {

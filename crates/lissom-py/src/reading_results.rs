@@ -15,8 +15,10 @@ type Row = (String, String, String, Option<(f64, f64, [f64; 2])>, Vec<String>);
 /// The parameters of a result, in the order of the tables.
 #[pyfunction]
 pub(crate) fn parameters(py: Python<'_>, result: &str) -> PyResult<Vec<Row>> {
-    let list = ParameterList::of_text(RESULT, result)
-        .map_err(|error| raised(py, lissom::io::Error::from(error)))?;
+    let fail = |error| raised(py, lissom::io::Error::from(error));
+    let list = ParameterList::of_text(RESULT, result).map_err(fail)?;
+    // Every table is one of this version.
+    ResultFile::of_text(RESULT, result).map_err(fail)?;
     let row = |p: lissom::io::ListedParameter| {
         let estimate = p.estimate.map(|e| (e.value, e.std, e.ci95));
         (p.key, p.name, p.unit, estimate, p.warnings)

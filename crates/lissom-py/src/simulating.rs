@@ -9,6 +9,7 @@ use pyo3::types::PyDict;
 use rayon::prelude::*;
 
 use crate::errors::{input_error, raised};
+use crate::worker;
 
 /// A file, or its text.
 pub(crate) fn text(
@@ -44,8 +45,7 @@ pub(crate) fn simulate(
 ) -> PyResult<Vec<(String, Bound<'_, PyDict>)>> {
     let (arm_path, arm) = text(py, arm_path, arm_text, "arm")?;
     let (plan_path, plan) = text(py, plan_path, plan_text, "plan")?;
-    let logs = py.detach(|| logs(&arm_path, &arm, &plan_path, &plan, seed));
-    let logs = logs.map_err(|error| raised(py, error))?;
+    let logs = worker::wait(py, move || logs(&arm_path, &arm, &plan_path, &plan, seed))?;
     let columns = |(name, run): (String, lissom::record::Run)| {
         let columns = PyDict::new(py);
         let time: Vec<f64> = (0..run.len()).map(|k| k as f64 * run.sample_time_s()).collect();

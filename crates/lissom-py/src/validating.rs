@@ -10,7 +10,7 @@ use pyo3::prelude::*;
 use pyo3::types::PyBytes;
 
 use crate::campaign::NativeCampaign;
-use crate::errors::{internal_error, raised};
+use crate::worker;
 
 /// What errors call the text of a result.
 const RESULT: &str = "result";
@@ -34,9 +34,6 @@ pub(crate) fn validate<'py>(
         let content = ValidationFile::of(&file.campaign, &found, &validation);
         Ok(write::json_text(Path::new(RESULT), &content)?)
     };
-    let text = py
-        .detach(|| std::panic::catch_unwind(std::panic::AssertUnwindSafe(work)))
-        .map_err(|_| internal_error())?
-        .map_err(|error| raised(py, error))?;
+    let text = worker::wait(py, work)?;
     Ok(PyBytes::new(py, text.as_bytes()))
 }

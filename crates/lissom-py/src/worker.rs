@@ -45,6 +45,36 @@ pub(crate) enum Ended<'py> {
     Stopped(PyErr, Pending),
 }
 
+/// Runs `work` in a thread and waits for it. After Ctrl-C it is left to itself.
+pub(crate) fn wait<T: Send + 'static>(
+    py: Python<'_>,
+    work: impl FnOnce() -> Result<T, lissom::Error> + Send + 'static,
+) -> PyResult<T> {
+    let outcome = started(work);
+    loop {
+        match next(py, &outcome) {
+            Ok(found) => return found.map_err(|error| raised(py, error)),
+            Err(RecvTimeoutError::Disconnected) => return Err(internal_error()),
+            Err(RecvTimeoutError::Timeout) => py.check_signals()?,
+        }
+    }
+}
+
+/// Starts work in a thread; gives where its outcome arrives.
+fn started<T: Send + 'static>(work: impl FnOnce() -> T + Send + 'static) -> Mutex<Receiver<T>> {
+    let (send, outcome) = mpsc::channel();
+    thread::spawn(move || {
+        // Nobody waits for a result that is not wanted any more.
+        let _ = send.send(work());
+    });
+    Mutex::new(outcome)
+}
+
+/// The outcome, if it arrives before the next look at signals.
+fn next<T: Send>(py: Python<'_>, outcome: &Mutex<Receiver<T>>) -> Result<T, RecvTimeoutError> {
+    py.detach(|| outcome.lock().unwrap_or_else(PoisonError::into_inner).recv_timeout(TICK))
+}
+
 /// Runs `work` in a thread. `show` is called about every 50 ms.
 pub(crate) fn run<'py>(
     py: Python<'py>,
@@ -52,16 +82,9 @@ pub(crate) fn run<'py>(
     work: impl FnOnce() -> Outcome + Send + 'static,
     show: impl Fn(Python<'py>) -> PyResult<()>,
 ) -> PyResult<Ended<'py>> {
-    let (send, outcome) = mpsc::channel();
-    thread::spawn(move || {
-        // Nobody waits for a result that is not wanted any more.
-        let _ = send.send(work());
-    });
-    let outcome = Mutex::new(outcome);
+    let outcome = started(work);
     loop {
-        let next =
-            py.detach(|| outcome.lock().unwrap_or_else(PoisonError::into_inner).recv_timeout(TICK));
-        match next {
+        match next(py, &outcome) {
             Ok(found) => return done(py, found).map(Ended::Done),
             Err(RecvTimeoutError::Disconnected) => return Err(internal_error()),
             Err(RecvTimeoutError::Timeout) => {

@@ -80,12 +80,79 @@ def test_times_are_seconds_from_the_first(kind: str) -> None:
     assert run.sample_time_s == pytest.approx(1e-3, rel=1e-9) and len(run.motor) == ROWS
 
 
+def test_the_unit_of_dates_is_seconds() -> None:
+    with pytest.raises(lissom.InputError, match='place of "ns"'):
+        motor(TIMES["numpy"], time="t:ns")
+    zones = [datetime.datetime(2026, 1, 1, tzinfo=datetime.timezone.utc), datetime.datetime(2026, 1, 2)]
+    with pytest.raises(lissom.InputError, match="with a zone"):
+        motor({**COLUMNS, "t": zones * (ROWS // 2)})
+
+
 def test_arrays_are_copied() -> None:
     columns = {name: values.copy() for name, values in COLUMNS.items()}
     campaign = lissom.Campaign(columns, **ROLES)
-    first = campaign.runs[0].motor.copy()
     columns["q"][:] = 0.0
-    assert np.array_equal(campaign.runs[0].motor, first)
+    assert np.array_equal(campaign.runs[0].motor, COLUMNS["q"])
+
+
+UNUSED = {
+    "complex": T + 1j,
+    "lists": [[1], [2, 3]] * (ROWS // 2),
+    "short": T[:10],
+    "never": np.full(ROWS, np.datetime64("NaT")),
+    "column_names": T,
+}
+
+
+@pytest.mark.parametrize("kind", [*UNUSED, "twice"])
+def test_columns_that_are_not_used_may_be_of_any_kind(kind: str) -> None:
+    if kind == "twice":
+        frame = pd.DataFrame(np.stack([*COLUMNS.values(), T, T], axis=1), columns=["t", "i", "q", "x", "x"])
+        assert np.array_equal(motor(frame), COLUMNS["q"])
+    else:
+        assert np.array_equal(motor({kind: UNUSED[kind], **COLUMNS}), COLUMNS["q"])
+
+
+def test_columns_by_number_are_those_of_the_table() -> None:
+    signals = {"time": lissom.Signal(1, "s"), "current": lissom.Signal(2, "A"), "motor": lissom.Signal(3, "rad")}
+    frame = pd.DataFrame(COLUMNS)
+    for table in (frame.rename_axis("sample"), pd.DataFrame(frame.to_numpy()), {"bad": T + 1j, **COLUMNS}):
+        numbers = signals
+        if isinstance(table, dict):
+            numbers = {role: lissom.Signal(int(s.column) + 1, s.unit) for role, s in signals.items()}
+        assert np.array_equal(motor(table, **numbers), COLUMNS["q"])
+
+
+def test_numbers_of_numpy_are_numbers() -> None:
+    columns = {name: values for name, values in COLUMNS.items() if name != "t"}
+    more = {"torque_constant": np.float32(0.5), "gear_ratio": np.int64(2), "time": np.float32(0.5)}
+    (run,) = lissom.Campaign(columns, **{**ROLES, **more}).runs
+    assert run.sample_time_s == 0.5
+    (run,) = lissom.Campaign(COLUMNS, **{**ROLES, "motor": lissom.Signal("q", "rad", scale=np.float32(2.0))}).runs
+    assert np.array_equal(run.motor, 2 * COLUMNS["q"])
+
+
+def test_runs_keep_their_names_and_their_tables(tmp_path: Path) -> None:
+    other = {**COLUMNS, "q": 2 * COLUMNS["q"]}
+    pd.DataFrame(other).to_csv(tmp_path / "log.csv", index=False)
+    with pytest.MonkeyPatch.context() as patch:
+        patch.chdir(tmp_path)
+        first, second = lissom.Campaign({"log.csv": COLUMNS, "z": "log.csv"}, **ROLES).runs
+    assert (first.name, second.name) == ("log.csv", "z")
+    assert np.array_equal(first.motor, COLUMNS["q"]) and np.allclose(second.motor, other["q"])
+    with pytest.raises(lissom.InputError, match="two runs are called '1'"):
+        lissom.Campaign({1: COLUMNS, "1": other}, **ROLES)  # type: ignore[dict-item]
+    with pytest.raises(lissom.InputError, match="cannot be called 'motor_raw'"):
+        lissom.Campaign(COLUMNS, tips=[lissom.Signal("q", "rad", name="motor_raw")], **ROLES)
+
+
+def test_a_saved_campaign_finds_the_logs_of_its_signals(tmp_path: Path) -> None:
+    pd.DataFrame(COLUMNS).to_csv(tmp_path / "log.csv", index=False)
+    pd.DataFrame({"t": T, "a": COLUMNS["q"]}).to_csv(tmp_path / "tip.csv", index=False)
+    tip = lissom.Signal("a", "rad", file=tmp_path / "tip.csv")
+    (tmp_path / "sub").mkdir()
+    lissom.Campaign(tmp_path / "log.csv", tips=[tip], **ROLES).save(tmp_path / "sub" / "c.toml")
+    assert 'file = "../tip.csv"' in (tmp_path / "sub" / "c.toml").read_text()
 
 
 def test_missing_values_are_gaps_and_many_are_an_error() -> None:
@@ -118,6 +185,11 @@ def test_words_name_the_runs() -> None:
         ([], "no run"),
         ({**COLUMNS, "t": T[::-1].copy()}, "time"),
         ({**COLUMNS, "q": np.array(["a"] * ROWS)}, "number"),
+        ({**COLUMNS, "q": np.ma.array(["a"] * ROWS)}, "number"),
+        ({**COLUMNS, "q": [10**400] * ROWS}, "no number"),
+        ({**COLUMNS, "q": np.full(ROWS, np.datetime64("NaT"))}, "table"),
+        (pl.DataFrame(COLUMNS).lazy(), "no values yet"),
+        (pd.Series(T), "is not a log"),
         (pd.DataFrame(np.zeros((3, 2)), columns=["t", "t"]), "several columns are called t"),
     ],
 )
@@ -154,10 +226,10 @@ def test_a_sample_time_replaces_stamps() -> None:
 def test_names_with_any_character(tmp_path: Path) -> None:
     names = {'a "b" \\ c\u007f\n': "q", "ü::x": "i"}
     columns = {"t": T, **{name: COLUMNS[of] for name, of in names.items()}}
+    with pytest.raises(lissom.InputError, match="characters"):
+        lissom.Campaign({**columns, "\ud800": T}, time="t:s", motor="q:rad", current="i:A")
     first, second = names
-    campaign = lissom.Campaign(
-        columns, time="t:s", motor=lissom.Signal(first, "rad"), current=lissom.Signal(second, "A")
-    )
+    campaign = lissom.Campaign(columns, time="t:s", motor=lissom.Signal(first, "rad"), current=lissom.Signal(second, "A"))
     assert np.array_equal(campaign.runs[0].motor, COLUMNS["q"])
     with pytest.raises(lissom.InputError, match="characters"):
         lissom.Campaign(columns, time="t:s", motor=lissom.Signal("\ud800", "rad"), current="i:A").runs

@@ -34,9 +34,7 @@ def documented() -> Iterator[tuple[str, Any]]:
                     yield f"{name}.{key}", inner
 
 
-@pytest.mark.parametrize(
-    ("name", "item"), list(documented()), ids=lambda value: value if isinstance(value, str) else ""
-)
+@pytest.mark.parametrize(("name", "item"), list(documented()), ids=lambda value: value if isinstance(value, str) else "")
 def test_every_parameter_is_documented(name: str, item: Any) -> None:
     assert item.__doc__, name
     doc = FunctionDoc(item) if inspect.isfunction(item) else FunctionDoc(None, doc=inspect.getdoc(item))

@@ -145,6 +145,9 @@ def test_a_required_parameter_that_is_refused_is_an_error(logs: dict[str, dict[s
     [
         ({"effort": "slow"}, 'effort is "slow"'),
         ({"threads": 0}, "threads is 0"),
+        ({"threads": 10**6}, "threads is 1000000"),
+        ({"require": "friction"}, "require is a list"),
+        ({"require": ["friktion"]}, "'friktion' is no key"),
         ({"window": -1.0}, "window is -1.0 s"),
         ({"time_limit": float("nan")}, "time_limit is nan"),
     ],
@@ -171,3 +174,68 @@ def test_simulations_repeat_and_differ_by_seed(logs: dict[str, dict[str, Any]]) 
     assert not np.array_equal(first["run-01"]["theta_m"], other["run-01"]["theta_m"])
     with pytest.raises(lissom.InputError, match="torque_constant"):
         lissom.simulate({"drive": {}}, PLAN)
+
+
+def test_a_required_key_that_the_result_does_not_have_is_refused(campaign: lissom.Campaign) -> None:
+    with pytest.raises(lissom.RefusedError, match="beam"):
+        lissom.identify(campaign, effort="quick", require=["beam"])
+
+
+@pytest.mark.parametrize("wrong", [{"window": 0.0}, {"horizon": float("nan")}])
+def test_wrong_times_of_a_validation_are_named(campaign: lissom.Campaign, result: lissom.Result, wrong: Any) -> None:
+    with pytest.raises(lissom.InputError, match="must be positive"):
+        lissom.validate(result, campaign, **wrong)
+
+
+def test_a_forked_process_says_what_to_do(campaign: lissom.Campaign) -> None:
+    import multiprocessing
+
+    import lissom._process
+
+    lissom.identify(campaign, effort="quick")
+    with multiprocessing.get_context("spawn").Pool(1) as pool:
+        assert pool.apply(named, (campaign,)) == "run-01"
+    ends, other = multiprocessing.get_context("fork").Pipe(), None
+    process = multiprocessing.get_context("fork").Process(target=forked, args=(campaign, ends[1]))
+    process.start()
+    assert ends[0].poll(20)
+    other = ends[0].recv()
+    process.join()
+    assert "spawn" in other
+
+
+def named(campaign: lissom.Campaign) -> str:
+    """The name of the first run."""
+    return campaign.runs[0].name
+
+
+def forked(campaign: lissom.Campaign, end: Any) -> None:
+    """Sends the error of an identification."""
+    try:
+        lissom.identify(campaign, effort="quick")
+    except lissom.LissomError as error:
+        end.send(str(error))
+    else:
+        end.send("no error")
+
+
+def test_ctrl_c_is_heard_by_a_plan() -> None:
+    from conftest import ARM
+
+    asked: list[float] = []
+
+    def interrupt() -> None:
+        asked.append(time.monotonic())
+        _thread.interrupt_main()
+
+    # Steps of the angle that are coarse for such a precision: many motions are tried.
+    beam = {"flexural_rigidity": "0.394 N*m^2", "spans": [{"length": "0.4 m", "mass": "0.3 kg"}], "damping": {"ratio": 0.01}}
+    timer = threading.Timer(0.2, interrupt)
+    timer.start()
+    try:
+        with pytest.raises(KeyboardInterrupt):
+            lissom.plan({**ARM, "beam": beam}, precision=1e-3)
+            time.sleep(5)
+    finally:
+        timer.cancel()
+    assert time.monotonic() - asked[0] < 0.2

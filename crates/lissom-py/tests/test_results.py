@@ -78,7 +78,7 @@ def test_html_shows_names_of_logs_as_text(result: lissom.Result) -> None:
 
 
 @pytest.mark.parametrize(
-    ("data", "message"), [(b"{", "no result"), (b"{}", 'has no "lissom"|no result'), (b"\xff", "no result")]
+    ("data", "message"), [(b"{", "no result"), (b"{}", "lissom"), (b"\xff", "no result"), (b"[" * 100_000, "no result")]
 )
 def test_other_files_are_no_results(data: bytes, message: str, tmp_path: Path) -> None:
     path = tmp_path / "other.json"
@@ -144,3 +144,60 @@ def test_refused_estimates_are_none(logs: Any) -> None:
     frame = result.to_frame().set_index("key")
     assert frame.loc["drive.inertia_kg_m2", "refused"]
     assert "refused" in repr(result) and "refused" in result._repr_html_()
+
+
+def test_a_rigid_joint_has_no_payload_to_predict(result: lissom.Result) -> None:
+    with pytest.raises(lissom.InputError, match="has no tip"):
+        result.payload(mass=0.1, to=[0.2], at=0.3)
+    with pytest.raises(lissom.InputError, match="must not be negative"):
+        result.payload(mass=-0.1, to=[0.2])
+    with pytest.raises(lissom.InputError, match="has no logs"):
+        lissom.Result(bytes(result)).payload(mass=0.1, to=[0.2])
+
+
+def test_a_result_of_other_tables_is_none(result: lissom.Result) -> None:
+    for key in ("findings", "frequency_response", "models", "gravity", "verdict"):
+        content = result.to_dict()
+        content[key] = 7
+        with pytest.raises(lissom.InputError):
+            lissom.Result(json.dumps(content).encode())
+    with pytest.raises(lissom.InputError, match="made of bytes"):
+        lissom.Result("result.json")  # type: ignore[arg-type]
+
+
+def test_files_are_written_whole_by_many_threads_and_keep_their_mode(result: lissom.Result, tmp_path: Path) -> None:
+    from concurrent.futures import ThreadPoolExecutor
+
+    path, link = tmp_path / "result.json", tmp_path / "link.json"
+    path.write_text("old")
+    path.chmod(0o600)
+    link.symlink_to(path)
+    with ThreadPoolExecutor(4) as pool:
+        list(pool.map(lambda _: result.save(link), range(100)))
+    assert path.read_bytes() == bytes(result) and link.is_symlink() and path.stat().st_mode & 0o777 == 0o600
+    assert sorted(file.name for file in tmp_path.iterdir()) == ["link.json", "result.json"]
+    for wrong in (tmp_path, tmp_path / "no" / "r.json", "a\0b", tmp_path / ("x" * 400)):
+        with pytest.raises(lissom.FileError):
+            result.save(wrong)
+    with pytest.raises(lissom.FileError):
+        result.to_c(path / "c")
+
+
+def test_tips_have_responses_and_models_of_their_own() -> None:
+    pytest.importorskip("control")
+    from conftest import ARM, PLAN
+
+    spans = [{"length": "0.2 m", "mass": "0.2 kg"}, {"length": "0.2 m", "mass": "0.3 kg"}]
+    arm = {**ARM, "beam": {"flexural_rigidity": "0.394 N*m^2", "spans": spans}}
+    logs = lissom.simulate(arm, PLAN)
+    tips = [lissom.Signal("theta_2", "rad", name="m"), lissom.Signal("theta_1", "rad", name="m2")]
+    signals: Any = {"time": "t:s", "motor": "theta_m:rad", "current": lissom.Signal("i", "A", hold="sampled")}
+    result = lissom.identify(lissom.Campaign(logs, tips=tips, torque_constant=0.2, **signals), effort="quick")
+    whole = result.to_control()
+    for row, name in enumerate(("m", "m2"), start=1):
+        if any(name == label.rsplit("_", 1)[0] for label in whole.output_labels):
+            one = result.to_control(name)
+            place = [label.rsplit("_", 1)[0] for label in whole.output_labels].index(name)
+            assert one(2.0j) == pytest.approx(whole(2.0j)[place])
+    with pytest.raises(lissom.InputError, match="no output 'motor_rad'"):
+        result.to_control("motor_rad")

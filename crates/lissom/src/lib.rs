@@ -61,6 +61,7 @@ mod error;
 mod found;
 mod identify_campaign;
 mod parameter_text;
+mod predict_payload;
 pub mod prelude;
 mod result_text;
 
@@ -68,4 +69,5 @@ pub use described_logs::DescribedLogs;
 pub use error::Error;
 pub use found::Found;
 pub use identify_campaign::Identify;
+pub use predict_payload::{PayloadError, Payloads, predict_payload};
 pub use result_text::ResultText;

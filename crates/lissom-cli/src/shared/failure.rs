@@ -2,6 +2,7 @@
 
 use std::path::PathBuf;
 
+use lissom::PayloadError;
 use lissom::identify::{EquivalentRefusal, IdentifyError, ValidationError};
 use lissom::plan::PlanError;
 use lissom::rig::RigError;
@@ -25,6 +26,9 @@ pub(crate) enum Failure {
     Identify { campaign: PathBuf, source: IdentifyError },
     #[error("{}: {source}", log.display())]
     Validate { log: PathBuf, source: ValidationError },
+    /// A payload that cannot be predicted.
+    #[error("{}: {source}", campaign.display())]
+    Payload { campaign: PathBuf, source: PayloadError },
     /// A log without a description of its columns.
     #[error("{}: is not a campaign.toml, and nothing describes its columns", log.display())]
     UndescribedLog { log: PathBuf },
@@ -81,6 +85,11 @@ impl Failure {
                 "put the input before `--json FILE`, give another name, or delete the file if you do not need it"
                     .to_owned(),
             ),
+            Self::Payload { source: PayloadError::NoDistance, .. } => Some(
+                "add --at LENGTH: the payload's inertia is its mass times the square of this distance"
+                    .to_owned(),
+            ),
+            Self::Payload { source, .. } => Some(source.hint().to_owned()),
             Self::Model { hint, .. } | Self::Asked(_, hint) => Some((*hint).to_owned()),
             Self::Equivalent { source, place, .. } => {
                 Some(place.clone().unwrap_or_else(|| equivalent_hint(source)))

@@ -95,7 +95,11 @@ impl FrictionEntry {
             viscous_forward: WithUnit::where_some(names, EstimateEntry::or_null(forward)),
             viscous_backward: WithUnit::where_some(names, EstimateEntry::or_null(backward)),
             terms: FrictionTermsEntry::of(names, constant, f),
-            curve: curve.iter().map(|p| CurvePointEntry::of(names, constant, p)).collect(),
+            curve: curve
+                .iter()
+                .filter(|p| p.friction.value.is_finite() && p.friction.std.is_finite())
+                .map(|p| CurvePointEntry::of(names, constant, p))
+                .collect(),
         }
     }
 }

@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 import os
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
+from numbers import Real
 from pathlib import Path as FilePath
 from typing import TYPE_CHECKING, Any, cast
 
@@ -14,8 +15,9 @@ from numpy.typing import NDArray
 from . import _lissom
 from ._errors import FileError, InputError
 from ._lissom import Campaign as Native
+from ._process import use
 from ._signal import Signal
-from ._tables import Log, Path, columns, is_path, several
+from ._tables import Log, Path, columns, is_path, is_time, several
 from ._toml import toml
 
 if TYPE_CHECKING:
@@ -142,7 +144,7 @@ class Campaign:
             )
         ((role, source),) = given.items()
         signals: dict[str, object] = {}
-        if isinstance(time, (int, float)) and not isinstance(time, bool):
+        if isinstance(time, Real) and not isinstance(time, bool):
             signals["sample_time"] = f"{float(time)!r} s"
         else:
             signals["time"] = Signal.of(cast("Signal | str", time))._table("time")
@@ -153,10 +155,10 @@ class Campaign:
         signals["motor"] = Signal.of(motor)._table("motor")
         if speed is not None:
             signals["speed"] = Signal.of(speed)._table("speed")
-        if tips:
-            if isinstance(tips, (str, Signal)):
-                raise InputError("tips is a list of signals", 'give it as in tips=["alpha:rad"]')
-            signals["tips"] = [Signal.of(tip)._table("tip") for tip in tips]
+        if isinstance(tips, (str, Signal)):
+            raise InputError("tips is a list of signals", 'give it as in tips=["alpha:rad"]')
+        if len(tips) > 0:
+            signals["tips"] = [_tip(Signal.of(tip)) for tip in tips]
         if run is not None:
             signals["run"] = run
         tables: dict[str, object] = {"signals": signals}
@@ -167,7 +169,7 @@ class Campaign:
             tables["drive"] = {key: _constant(key, value, role) for key, value in drive.items()}
         if mgl is not None:
             tables["load"] = {"gravity": True, "mgl": _with_unit(mgl, "N*m")}
-        elif gravity:
+        elif bool(gravity):
             tables["load"] = {"gravity": True}
         analysis = {"skip": skip, "window": window}
         if any(value is not None for value in analysis.values()):
@@ -176,6 +178,9 @@ class Campaign:
         self._logs: list[tuple[str, Log]] = _named(runs)
         self._path: FilePath | None = None
         self._native: Native | None = None
+        if any(not is_path(log) for _, log in self._logs):
+            # Arrays may change later: they are copied now.
+            self._read()
 
     #: The text of a campaign.toml that describes logs, if it is not made of `_tables`.
     _described: str | None = None
@@ -209,8 +214,9 @@ class Campaign:
         """
         made = cls.__new__(cls)
         made._tables, made._logs = {}, []
-        made._path = FilePath(path)
-        made._native = Native.of_file(os.fspath(path))
+        use()
+        made._path = FilePath(_path(path))
+        made._native = Native.of_file(_path(path))
         return made
 
     @classmethod
@@ -284,7 +290,11 @@ class Campaign:
         InputError
             If something is missing that the logs do not show.
         """
-        files = [os.fspath(log) for log in cast("list[Path]", several(cast("Log", logs)))]
+        use()
+        given = several(cast("Log", logs))
+        if not all(is_path(log) for log in given):
+            raise InputError("of_logs takes files", "describe a table in memory with Campaign(table, time=..., ...)")
+        files = [_path(log) for log in given]
         texts = {
             "time": time,
             "sample_time": None if sample_time is None else _with_unit(sample_time, "s"),
@@ -338,7 +348,19 @@ class Campaign:
         if self._described is not None:
             raise InputError("this campaign was made by of_logs", "write it with `lissom init`")
         folder = target.parent.resolve()
-        text = self._text(lambda file: os.path.relpath(FilePath(file).resolve(), folder))
+        moved = dict(cast("dict[str, object]", self._tables.get("drive", {})))
+
+        def from_folder(file: str) -> str:
+            return os.path.relpath(FilePath(file).resolve(), folder)
+
+        if "arm" in moved:
+            moved["arm"] = from_folder(str(moved["arm"]))
+        tables = self._tables
+        self._tables = {**tables, "drive": moved} if moved else tables
+        try:
+            text = self._text(from_folder)
+        finally:
+            self._tables = tables
         try:
             with open(target, "x", encoding="utf-8") as file:
                 file.write(text)
@@ -398,28 +420,64 @@ class Campaign:
     def __reduce__(self) -> tuple[Any, ...]:
         return (_restored, (self._tables, self._logs, self._path, self._described, self._notes))
 
-    def _text(self, file: Any = os.fspath) -> str:
+    def _text(self, file: Callable[[str], str] | None = None) -> str:
         """Write the campaign.toml."""
         if self._described is not None:
             return self._described
         lines = []
         for table, content in self._tables.items():
             lines.append(f"[{table}]")
-            lines += [f"{key} = {toml(value)}" for key, value in cast("Mapping[str, object]", content).items()]
-        for name, log in self._logs:
-            named = file(cast("Path", log)) if is_path(log) else name
-            lines += ["[[runs]]", f"file = {toml(named)}"]
-            if is_path(log) and name != os.fspath(cast("Path", log)):
+            entries = cast("Mapping[str, object]", content).items()
+            lines += [f"{key} = {toml(_moved(value, file) if file else value)}" for key, value in entries]
+        for place, (name, log) in enumerate(self._logs):
+            path = _path(log) if is_path(log) else _memory(place)
+            lines += ["[[runs]]", f"file = {toml(file(path) if file else path)}"]
+            if name != path:
                 lines.append(f"name = {toml(name)}")
         return "\n".join(lines) + "\n"
 
     def _read(self) -> Native:
+        use()
         if self._native is None:
-            memory: list[tuple[str, Columns]] = [
-                (name, columns(log, name)) for name, log in self._logs if not is_path(log)
-            ]
+            tables = [(place, name, log) for place, (name, log) in enumerate(self._logs) if not is_path(log)]
+            wanted = _columns_of(self._tables) if tables else set()
+            for _, name, log in tables:
+                self._times_are_seconds(name, log)
+            memory: list[tuple[str, Columns]] = [(_memory(place), columns(log, name, wanted)) for place, name, log in tables]
             self._native = Native.of_text("campaign", self._text(), memory)
         return self._native
+
+    def _times_are_seconds(self, name: str, log: Log) -> None:
+        """Refuse another unit of dates and durations, which are converted to seconds."""
+        signals = cast("dict[str, Any]", self._tables["signals"])
+        time = signals.get("time")
+        if time is not None and time["unit"] != "s" and is_time(log, time["column"]):
+            raise InputError(
+                f'{name}: column "{time["column"]}" has dates or durations, which are converted to seconds',
+                f'give its unit as "s" in place of "{time["unit"]}"',
+            )
+
+
+def _memory(place: int) -> str:
+    """Give the name of a table in memory in the text of a campaign; no file is called so."""
+    return f"\u2060table {place + 1}"
+
+
+def _columns_of(tables: Mapping[str, object]) -> set[str | int]:
+    """Give the columns that a campaign names."""
+    signals = cast("dict[str, Any]", tables["signals"])
+    entries = [value for value in signals.values() if isinstance(value, dict)] + list(signals.get("tips", []))
+    wanted = {entry["column"] for entry in entries if "file" not in entry}
+    return wanted | ({signals["run"]} if "run" in signals else set())
+
+
+def _moved(value: object, file: Callable[[str], str]) -> object:
+    """Give a value in which paths of other logs start from another folder."""
+    if isinstance(value, dict):
+        return {key: file(item) if key == "file" else item for key, item in value.items()}
+    if isinstance(value, list):
+        return [_moved(item, file) for item in value]
+    return value
 
 
 def _restored(
@@ -448,17 +506,38 @@ def _named(runs: Any) -> list[tuple[str, Log]]:
     if isinstance(runs, Mapping):
         values = list(runs.values())
         if values and all(is_path(log) or isinstance(log, Mapping) or hasattr(log, "columns") for log in values):
-            return [(str(name), log) for name, log in runs.items()]
+            names = [str(name) for name in runs]
+            twice = next((name for name in names if names.count(name) > 1), None)
+            if twice is not None:
+                raise InputError(f"two runs are called {twice!r}")
+            return list(zip(names, values, strict=True))
     logs = several(runs)
     tables = sum(not is_path(log) for log in logs)
-    names, count = [], 0
+    named, count = [], 0
     for log in logs:
         if is_path(log):
-            names.append(os.fspath(log))  # type: ignore[arg-type]
+            named.append(_path(log))
         else:
             count += 1
-            names.append("table" if tables == 1 else f"table {count}")
-    return list(zip(names, logs, strict=True))
+            named.append("table" if tables == 1 else f"table {count}")
+    return list(zip(named, logs, strict=True))
+
+
+def _path(log: Any) -> str:
+    """Give a path as a text."""
+    path = os.fspath(log)
+    return os.fsdecode(path) if isinstance(path, bytes) else str(path)
+
+
+#: Names of the motor's channels in results.
+_OF_MOTOR = ("motor", "motor_raw", "motor_corrected")
+
+
+def _tip(signal: Signal) -> dict[str, object]:
+    table = signal._table("tip")
+    if table["name"] in _OF_MOTOR:
+        raise InputError(f"a tip cannot be called {table['name']!r}", 'give it another name: Signal(..., name="tip")')
+    return table
 
 
 def _with_unit(value: str | float, unit: str) -> str:
@@ -478,7 +557,7 @@ _SI = {
 def _constant(key: str, value: str | float, role: str) -> object:
     if isinstance(value, os.PathLike):
         return os.fspath(value)
-    if isinstance(value, (int, float)) and not isinstance(value, bool):
+    if isinstance(value, Real) and not isinstance(value, bool):
         unit = _PER.get(role) if key == "torque_constant" else _SI.get(key)
         return float(value) if unit is None else f"{float(value)!r} {unit}"
     return value

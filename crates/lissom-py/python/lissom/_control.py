@@ -41,30 +41,39 @@ def to_control(
     import control  # type: ignore[import-untyped,unused-ignore]
 
     tips = {tip["name"]: tip for tip in models["tips"]}
-    if output != "motor" and output not in tips:
-        raise InputError(f"there is no output {output!r}; the outputs are {', '.join(['motor', *tips])}")
+    measured = [name for name in responses if name not in ("motor_raw", "motor_corrected")]
+    known = {"ss": ["motor", *measured], "tf": ["motor", *tips], "frd": ["motor", *measured]}
+    if kind not in known:
+        raise InputError(f"kind is {kind!r}, and not ss, tf or frd")
+    if output not in known[kind]:
+        raise InputError(f"there is no output {output!r}; the outputs are {', '.join(known[kind])}")
     if kind == "ss":
-        space = models["state_space"]
-        if space is None:
-            raise InputError("the result has no state space", "its findings give the reason")
-        rows = slice(None)
-        outputs = space["outputs"]
-        if output != "motor":
-            row = [k for k, name in enumerate(outputs) if name.startswith(output)][0]
-            rows, outputs = slice(row, row + 1), outputs[row : row + 1]
-        c, d = np.atleast_2d(space["c"])[rows], np.atleast_2d(space["d"])[rows]
-        return control.StateSpace(
-            space["a"], space["b"], c, d, states=space["states"], inputs=space["inputs"], outputs=outputs
-        )
+        return _state_space(control, models["state_space"], 0 if output == "motor" else 1 + measured.index(output))
     if kind == "tf":
         model = models["motor"] if output == "motor" else tips[output]
         if model is None:
             raise InputError(f"the result has no model of {output!r}", "its findings give the reason")
-        return control.TransferFunction(model["num"], model["den"])
-    if kind == "frd":
-        data = responses["motor_corrected" if output == "motor" else output]
-        there = np.isfinite(data)
-        order = np.argsort(frequency[there], kind="stable")
-        omega, first = np.unique(frequency[there][order], return_index=True)
-        return control.FrequencyResponseData(data[there][order][first], omega)
-    raise InputError(f"kind is {kind!r}, and not ss, tf or frd")
+        names = {"inputs": "command" if output == "motor" else "motor", "outputs": output}
+        return control.TransferFunction(model["num"], model["den"], **names)
+    data = responses["motor_corrected" if output == "motor" else output]
+    there = np.isfinite(data)
+    order = np.argsort(frequency[there], kind="stable")
+    omega, first = np.unique(frequency[there][order], return_index=True)
+    names = {"inputs": "command" if output == "motor" else "motor", "outputs": output}
+    return control.FrequencyResponseData(data[there][order][first], omega, **names)
+
+
+def _state_space(control: Any, space: dict[str, Any] | None, output: int) -> Any:
+    """Make a state space of all outputs that have a model, or of one of them if `output` is not 0."""
+    if space is None:
+        raise InputError("the result has no state space", "its findings give the reason")
+    c, d = np.atleast_2d(space["c"]), np.atleast_2d(space["d"])
+    # A point without a model has a row of zeros.
+    modelled = [k for k in range(len(c)) if k == 0 or np.any(c[k]) or np.any(d[k])]
+    rows = modelled if output == 0 else [k for k in modelled if k == output]
+    if not rows:
+        raise InputError("the result has no model of this point", "its findings give the reason")
+    outputs = [space["outputs"][k] for k in rows]
+    return control.StateSpace(
+        space["a"], space["b"], c[rows], d[rows], states=space["states"], inputs=space["inputs"], outputs=outputs
+    )

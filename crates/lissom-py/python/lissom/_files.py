@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 import os
+import stat
+import tempfile
 from pathlib import Path as FilePath
 from typing import TYPE_CHECKING
 
@@ -13,22 +15,39 @@ if TYPE_CHECKING:
 
 
 def write_whole(path: Path, data: bytes) -> None:
-    """Write a file whole or not at all.
+    """Write a file whole or not at all; a device or a pipe directly.
 
     Parameters
     ----------
     path : path
-        The file; one that exists is replaced.
+        The file; one that exists is replaced and keeps its permissions.
     data : bytes
         Its content.
     """
-    target = FilePath(path)
-    part = target.with_name(f".{target.name}.{os.getpid()}.part")
     try:
+        target = FilePath(path).resolve()
+        mode = target.stat().st_mode if target.exists() else None
+        if mode is not None and not stat.S_ISREG(mode):
+            target.write_bytes(data)
+            return
+        number, part = tempfile.mkstemp(prefix=".lissom-", suffix=".part", dir=target.parent)
         try:
-            part.write_bytes(data)
+            with os.fdopen(number, "wb") as file:
+                file.write(data)
+            os.chmod(part, stat.S_IMODE(mode) if mode is not None else 0o666 & ~_mask())
             os.replace(part, target)
-        finally:
-            part.unlink(missing_ok=True)
+        except BaseException:
+            FilePath(part).unlink(missing_ok=True)
+            raise
     except OSError as error:
-        raise FileError(f"{target}: {error.strerror}", "check the folder and its permissions") from error
+        reason = error.strerror or str(error)
+        raise FileError(f"{os.fspath(path)!s}: {reason}", "check the folder and its permissions") from error
+    except ValueError as error:
+        raise FileError(f"{os.fspath(path)!r}: {error}", "give another name") from error
+
+
+def _mask() -> int:
+    """Give the permissions that new files do not have."""
+    mask = os.umask(0)
+    os.umask(mask)
+    return mask

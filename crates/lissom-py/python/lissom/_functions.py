@@ -15,6 +15,7 @@ from ._campaign import Campaign
 from ._errors import InputError, RefusedError
 from ._interrupted import Interrupted
 from ._plan import Plan
+from ._process import use
 from ._result import Result, refused
 from ._tables import Log, Path, columns, is_path
 from ._toml import toml, toml_key
@@ -22,6 +23,12 @@ from ._validation import Validation
 
 if TYPE_CHECKING:
     import pandas as pd
+
+
+#: Most threads of a call.
+MOST_THREADS = 1024
+#: What keys of parameters start with.
+TABLES = ("friction", "drive", "beam", "gravity", "methods")
 
 
 def identify(
@@ -72,8 +79,13 @@ def identify(
     """
     if not isinstance(campaign, Campaign):
         campaign = Campaign.load(campaign)
-    if threads is not None and threads < 1:
-        raise InputError(f"threads is {threads}; at least one is needed")
+    if threads is not None and not 1 <= threads <= MOST_THREADS:
+        raise InputError(f"threads is {threads}; it must be from 1 to {MOST_THREADS}")
+    if isinstance(require, str):
+        raise InputError("require is a list of keys", f"give it as in require=[{require!r}]")
+    for key in require:
+        if not str(key).startswith(TABLES):
+            raise InputError(f"{key!r} is no key of a result", f"keys start with {', '.join(TABLES)}")
     for name, seconds in (("window", window), ("time_limit", time_limit)):
         if seconds is not None and not seconds > 0:
             raise InputError(f"{name} is {seconds} s; it must be positive")
@@ -123,6 +135,11 @@ def validate(
     Validation
         What is left, and findings.
     """
+    for name, seconds in (("window", window), ("horizon", horizon)):
+        if seconds is not None and not 0 < seconds < float("inf"):
+            raise InputError(f"{name} is {seconds} s; it must be positive")
+    if not isinstance(result, Result) or not (like is None or isinstance(like, Campaign)):
+        raise InputError("validate takes a Result, logs, and a Campaign", "read them with Result.load and Campaign.load")
     if isinstance(runs, Campaign):
         campaign = runs
     elif like is None:
@@ -152,6 +169,9 @@ def inspect(log: Log, *, header_row: int | None = None, skip_rows: int = 0) -> p
     """
     import pandas as pd
 
+    use()
+    if skip_rows < 0 or (header_row is not None and header_row < 1):
+        raise InputError("header_row is from 1, and skip_rows not negative")
     if is_path(log):
         text = _lissom.inspect(os.fspath(cast("Path", log)), header_row, skip_rows)
     else:
@@ -181,6 +201,8 @@ def compare(results: Mapping[str, Result] | Sequence[Result]) -> pd.DataFrame:
     """
     import pandas as pd
 
+    if isinstance(results, Result):
+        raise InputError("compare takes two or more results", "give a list, or a mapping of names")
     named = results if isinstance(results, Mapping) else {f"result {k + 1}": r for k, r in enumerate(results)}
     text = _lissom.compare([(name, bytes(result).decode()) for name, result in named.items()])
     rows = []
@@ -241,6 +263,7 @@ def plan(
     Plan
         The runs, which `simulate` takes, and the expected standard errors.
     """
+    use()
     wanted = {} if precision is None else dict(precision) if isinstance(precision, Mapping) else {"all": precision}
     for name, share in wanted.items():
         if not 0 < share < 1:
@@ -274,6 +297,7 @@ def simulate(
         For each run its columns: ``t`` [s], ``i`` [A], ``theta_m`` [rad], ``theta_1`` [rad] and so on, as a Campaign takes
         them.
     """
+    use()
     if not 0 <= seed < 2**64:
         raise InputError(f"seed is {seed}; it must be from 0 to 2**64 - 1")
     arm_path, arm_text = _file_or_text(arm)

@@ -47,9 +47,7 @@ def result_html(findings: Sequence[Finding], rows: list[Row], figures: list[tupl
         for finding in matter:
             run = f"{escape(finding.run)}: " if finding.run else ""
             hint = f"<br><i>{escape(finding.hint)}</i>" if finding.hint else ""
-            lines.append(
-                f"<li><b>{finding.severity}</b> [{escape(finding.code)}] {run}{escape(finding.message)}{hint}</li>"
-            )
+            lines.append(f"<li><b>{finding.severity}</b> [{escape(finding.code)}] {run}{escape(finding.message)}{hint}</li>")
         lines.append("</ul>")
     lines += [f"<div>{svg}</div>" for name, svg in figures if name in _SHOWN]
     return "".join(lines)

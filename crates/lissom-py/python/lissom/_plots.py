@@ -15,6 +15,7 @@ if TYPE_CHECKING:
 
     from ._estimate import Estimate
 
+_TORQUES = {"nm": "N·m", "n": "N", "a": "A", "v": "V"}
 _RAW, _CORRECTED, _MODEL = "0.6", "C0", "C3"
 
 
@@ -101,8 +102,7 @@ class ResultPlots:
         self._model(output, axes, omega)
         magnitude.set_xscale("log")
         phase.set_xscale("log")
-        unit = "rad per command" if output == "motor" else "1"
-        magnitude.set_ylabel(f"magnitude (dB, {unit})")
+        magnitude.set_ylabel("magnitude (dB)")
         phase.set_ylabel("phase (°)")
         phase.set_xlabel("frequency (rad/s)")
         phase.set_yticks(np.arange(-180, 181, 90))
@@ -124,40 +124,60 @@ class ResultPlots:
         matplotlib axes
             Friction [N·m, or unit of the command] over speed [rad/s].
         """
-        (axes,) = _axes(ax, 1)
-        table = self._result.to_dict()["friction"]
-        curve = table["curve"] or []
-        speeds, values, bars = [], [], []
-        unit = "N·m"
-        for point in curve:
+        content = self._result.to_dict()
+        table, linear = content["friction"], content["axis"] == "linear"
+        speeds, values, bars, unit = [], [], [], ""
+        for point in table["curve"] or []:
             speed = next(value for key, value in point.items() if key.startswith("speed"))
-            keys = [key for key in point if key.startswith("friction")]
-            estimate = point[keys[-1]]
-            unit = {"nm": "N·m", "n": "N", "a": "A", "v": "V"}.get(keys[-1].rsplit("_", 1)[-1], "unit of the command")
+            key = [key for key in point if key.startswith("friction")][-1]
+            unit = _TORQUES.get(key.rsplit("_", 1)[-1], "unit of the command")
             sign = 1 if point["direction"] == "forward" else -1
             speeds.append(sign * abs(speed))
-            values.append(sign * abs(estimate["value"]))
-            bars.append(1.96 * estimate["std"])
+            values.append(sign * point[key]["value"])
+            bars.append(1.96 * point[key]["std"])
+        lines = self._lines()
+        if not speeds and not lines:
+            raise InputError("there is no friction to draw", "the findings give the reason")
+        (axes,) = _axes(ax, 1)
         if speeds:
             style = {"fmt": "o", "color": _CORRECTED, "markersize": 4, "label": "at single speeds, without a law"}
-            axes.errorbar(speeds, values, yerr=bars, **style)
-        coulomb = next((e for key, e in self._result.friction.items() if key.startswith("coulomb_n") and e), None)
-        coulomb = coulomb or next(
-            (e for key, e in self._result.friction.items() if key.startswith("coulomb") and e), None
-        )
-        viscous = next((e for key, e in self._result.friction.items() if key.startswith("viscous_") and e), None)
-        if coulomb is not None and viscous is not None:
-            most = max((abs(speed) for speed in speeds), default=1.0)
-            for sign in (1, -1):
-                line = np.array([0.0, sign * most])
-                label = "Coulomb and viscous friction" if sign > 0 else None
-                axes.plot(line, sign * coulomb + viscous * line, color=_MODEL, linewidth=1, label=label)
+            # A bar that is longer than all values says that nothing is known there, and would hide the others.
+            size = 2 * max(abs(value) for value in values)
+            axes.errorbar(speeds, values, yerr=np.minimum(bars, size), **style)
+        most = max((abs(speed) for speed in speeds), default=1.0)
+        law = content["friction"].get("near_rest") or content["friction"].get("ripples")
+        for sign, (coulomb, viscous) in lines.items():
+            line = np.array([0.0, sign * most])
+            label = "Coulomb and viscous friction" + (", without the further terms" if law else "")
+            axes.plot(line, sign * coulomb + viscous * line, color=_MODEL, linewidth=1, label=label)
         axes.axhline(0.0, color="0.8", linewidth=0.8, zorder=0)
-        axes.set_xlabel("speed (rad/s)")
-        axes.set_ylabel(f"friction ({unit})")
-        axes.legend()
+        axes.set_xlabel("speed (m/s)" if linear else "speed (rad/s)")
+        axes.set_ylabel(f"friction ({unit})" if unit else "friction")
+        handles, labels = axes.get_legend_handles_labels()
+        first = {label: handle for handle, label in zip(handles, labels, strict=True)}
+        axes.legend(first.values(), first.keys())
         axes.grid(True, alpha=0.3)
         return axes
+
+    def _lines(self) -> dict[int, tuple[float, float]]:
+        """Give Coulomb and viscous friction by the sign of the speed, in the unit of the curve."""
+        friction = self._result.friction
+
+        def one(*names: str) -> float | None:
+            for name in names:
+                keys = [key for key in friction if key.startswith(name + "_")]
+                found = friction[keys[-1]] if keys else None
+                if found is not None:
+                    return float(found)
+            return None
+
+        lines = {}
+        for sign, direction in ((1, "forward"), (-1, "backward")):
+            coulomb = one(direction, "coulomb")
+            viscous = one(f"viscous_{direction}", "viscous")
+            if coulomb is not None and viscous is not None:
+                lines[sign] = (coulomb, viscous)
+        return lines
 
     def _model(self, output: str, axes: NDArray[Any], omega: NDArray[np.float64]) -> None:
         models = self._result.to_dict()["models"]

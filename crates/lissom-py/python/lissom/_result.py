@@ -27,6 +27,10 @@ if TYPE_CHECKING:
     import pandas as pd
 
 
+#: What to do about a result without logs.
+NO_LOGS = "identify the logs again: a result that was read from a file has no logs"
+
+
 class Result:
     """What the logs of a drive say: friction, inertia, modes, responses, and findings.
 
@@ -40,10 +44,12 @@ class Result:
     """
 
     def __init__(self, data: bytes) -> None:
+        if isinstance(data, (str, int)):
+            raise InputError("a Result is made of bytes", "read a file with Result.load")
         self._data = bytes(data)
         try:
-            self._root: dict[str, Any] = json.loads(self._data)
-        except ValueError as error:
+            self._root: dict[str, Any] = json.loads(self._data.decode("utf-8-sig"))
+        except (ValueError, RecursionError) as error:
             raise InputError(f"the data are no result: {error}") from None
         # Says what is missing if the JSON is of something else.
         rows = _lissom.parameters(self._text)
@@ -62,22 +68,6 @@ class Result:
         return result
 
     @classmethod
-    def from_bytes(cls, data: bytes) -> Result:
-        """Make a result of the bytes of a result.json.
-
-        Parameters
-        ----------
-        data : bytes
-            The content of the file.
-
-        Returns
-        -------
-        Result
-            The result.
-        """
-        return cls(data)
-
-    @classmethod
     def load(cls, path: Path) -> Result:
         """Read a result.json.
 
@@ -93,8 +83,9 @@ class Result:
         """
         try:
             data = FilePath(path).read_bytes()
-        except OSError as error:
-            raise FileError(f"{os.fspath(path)}: {error.strerror}", "check the path") from error
+        except (OSError, ValueError) as error:
+            reason = getattr(error, "strerror", None) or str(error)
+            raise FileError(f"{os.fspath(path)!s}: {reason}", "check the path") from error
         try:
             return cls(data)
         except InputError as error:
@@ -125,8 +116,55 @@ class Result:
         """
         if self._found is None:
             message = "the report page needs the logs of the result"
-            raise InputError(message, "identify the logs again: a result that was read from a file has no logs")
-        write_whole(path, self._found.report(FilePath(path).stem).encode())
+            raise InputError(message, NO_LOGS)
+        write_whole(path, self._found.report(FilePath(path).stem).encode(errors="replace"))
+
+    def payload(self, mass: float, to: Sequence[float], *, at: float | None = None, tip: str | None = None) -> pd.DataFrame:
+        """Predict the arm with other payloads at the same point.
+
+        The payload is a point mass without rotary inertia.
+
+        Parameters
+        ----------
+        mass : float
+            Payload in the logged runs [kg].
+        to : sequence of float
+            Payloads to predict [kg].
+        at : float, optional
+            Distance of the payload from a rotary axis [m].
+        tip : str, optional
+            Tip at which the payload is fixed; the last one if absent.
+
+        Returns
+        -------
+        pandas.DataFrame
+            A row for each payload and mode: mass_kg, mode, natural_frequency_rad_s, damping_ratio, and their standard
+            errors. ``attrs`` has everything that ``lissom payload --json`` writes, with the responses of the tip.
+
+        Raises
+        ------
+        InputError
+            If no arm was identified, or if the result was read from a file.
+        """
+        import pandas as pd
+
+        if self._found is None:
+            raise InputError("this result has no logs", NO_LOGS)
+        masses = [float(mass), *(float(other) for other in to)]
+        if not all(0 <= one < float("inf") for one in masses):
+            raise InputError(f"masses are {masses} kg; they must not be negative")
+        text = self._found.payload(masses[0], masses[1:], at, tip)
+        content = json.loads(text)
+        rows = []
+        for payload in content["payloads"]:
+            for number, mode in enumerate(payload["modes"], start=1):
+                row = {"mass_kg": payload["mass_kg"], "mode": number}
+                for key, entry in mode.items():
+                    row |= {key: entry and entry["value"], f"{key}_std": entry and entry["std"]}
+                rows.append(row)
+        frame = pd.DataFrame(rows)
+        frame.attrs.update(content)
+        return frame
 
     @property
     def friction(self) -> Mapping[str, Estimate | None]:
@@ -227,6 +265,8 @@ class Result:
             for place, key in enumerate(known["keys"])
             if self[key] is not None and known["matrix"][place][place] is not None
         }
+        if isinstance(keys, str):
+            raise InputError("keys is a list of keys", f"give it as in [{keys!r}]")
         wanted = list(places) if keys is None else list(keys)
         for key in wanted:
             if self[key] is None:
@@ -275,6 +315,8 @@ class Result:
         if key in self._listed:
             return self._listed[key]
         value: Any = self._root
+        if not isinstance(key, str):
+            raise KeyError(key)
         for part in key.replace("[", ".").replace("]", "").split("."):
             try:
                 value = value[int(part)] if isinstance(value, list) else value[part]
@@ -418,7 +460,10 @@ class Result:
             The files.
         """
         made = FilePath(folder)
-        made.mkdir(parents=True, exist_ok=True)
+        try:
+            made.mkdir(parents=True, exist_ok=True)
+        except (OSError, ValueError) as error:
+            raise FileError(f"{os.fspath(folder)}: {error}", "give a folder that can be made") from error
         files = self._exported("c")
         for name, data in files:
             write_whole(made / name, data)
@@ -454,7 +499,9 @@ class Result:
     def _responses(self) -> list[tuple[str, dict[str, Any]]]:
         table = self._root["frequency_response"]
         motor = [(name, table[name]) for name in ("motor_raw", "motor_corrected") if table.get(name)]
-        return motor + [(tip["name"], tip) for tip in table["tips"]]
+        taken = {name for name, _ in motor}
+        named = [(f"tip {tip['name']}" if tip["name"] in taken else tip["name"], tip) for tip in table["tips"]]
+        return motor + named
 
     def _exported(self, target: str, into: Path | None = None, joint: str | None = None) -> list[tuple[str, bytes]]:
         if (into is None) != (joint is None):
@@ -474,9 +521,7 @@ def _is_estimate(value: object) -> bool:
 
 
 def _estimates(table: dict[str, Any]) -> dict[str, Estimate | None]:
-    return {
-        key: Estimate._of(value, unit_of(key)) for key, value in table.items() if value is None or _is_estimate(value)
-    }
+    return {key: Estimate._of(value, unit_of(key)) for key, value in table.items() if value is None or _is_estimate(value)}
 
 
 _Array = TypeVar("_Array", bound="NDArray[Any]")
@@ -505,7 +550,5 @@ def refused(result: Result, keys: Sequence[str]) -> list[str]:
     missing = []
     for key in keys:
         listed = [name for name in result if name == key or name.startswith((key + ".", key + "_", key + "["))]
-        missing += [name for name in listed if result[name] is None]
-        if not listed and result[key] is None:
-            missing.append(key)
+        missing += [name for name in listed if result[name] is None] if listed else [key]
     return missing

@@ -20,12 +20,13 @@ class Signal:
     column : str or int
         Name of the column, or its number from 1.
     unit : str
-        Unit of the values, such as ``"rad"``, ``"deg"``, ``"rpm"``, ``"A"``, ``"mA"``, ``"counts/4096 rev"``; ``"1"`` for a
+        Unit of the values, such as ``"rad"``, ``"deg"``, ``"rpm"``, ``"A"``, ``"mA"``; ``"1"`` for a
         command or tip of unknown unit.
     hold : {'measured', 'sampled'}
         For a command: a sensor's value, or constant between samples. Other signals have none.
     scale : float
-        The reading is ``scale * value`` in `unit`; negative if the sensor counts the other way.
+        The reading is ``scale * value`` in `unit`; negative if the sensor counts the other way. Encoder counts are
+        ``Signal("counts", "rad", scale=2 * math.pi / 4096)``.
     radius : str or float or None
         For a tip in metres on a rotary axis: distance to the joint, as ``"250 mm"``, or in metres.
     quantity : {'angle', 'speed', 'deflection', 'acceleration', 'goal'} or None
@@ -65,9 +66,7 @@ class Signal:
             raise InputError(f"a signal is a Signal or a text COLUMN:UNIT, not {value!r}", 'give it as in "q:deg"')
         column, colon, unit = value.rpartition(":")
         if not colon or not column or not unit:
-            raise InputError(
-                f"the signal {value!r} has no unit", f'give it with its unit, as in "{value.strip(":")}:rad"'
-            )
+            raise InputError(f"the signal {value!r} has no unit", f'give it with its unit, as in "{value.strip(":")}:rad"')
         return cls(column, unit)
 
     def _table(self, role: str) -> dict[str, object]:

@@ -3,19 +3,29 @@
 from __future__ import annotations
 
 import json
+import os
 import re
 from collections.abc import Mapping, Sequence
+from numbers import Integral, Real
+
+import numpy as np
 
 from ._errors import InputError
+from ._tables import text
+
+#: Most mappings in each other.
+DEEPEST = 20
 
 
-def toml(value: object) -> str:
+def toml(value: object, depth: int = 0) -> str:
     """Write a value of a campaign.toml.
 
     Parameters
     ----------
     value : str, bool, int, float, sequence or mapping
         The value.
+    depth : int
+        Number of mappings around it.
 
     Returns
     -------
@@ -23,21 +33,23 @@ def toml(value: object) -> str:
         Its text.
     """
     if isinstance(value, str):
-        try:
-            value.encode()
-        except UnicodeEncodeError:
-            raise InputError(f"a text has characters that no file can contain: {value!r}") from None
-        return json.dumps(value, ensure_ascii=False).replace("\x7f", "\\u007f")
-    if isinstance(value, bool):
+        return json.dumps(text(value), ensure_ascii=False).replace("\x7f", "\\u007f")
+    if isinstance(value, os.PathLike):
+        return toml(os.fspath(value))
+    if isinstance(value, (bool, np.bool_)):
         return "true" if value else "false"
-    if isinstance(value, int):
-        return str(value)
-    if isinstance(value, float):
+    if isinstance(value, Integral):
+        return str(int(value))
+    if isinstance(value, Real):
         return repr(float(value))
+    if depth > DEEPEST:
+        raise InputError("a mapping or list contains itself, or is nested too deeply")
+    if isinstance(value, np.ndarray):
+        return toml(value.tolist(), depth)
     if isinstance(value, Mapping):
-        return "{ " + ", ".join(f"{toml_key(str(k))} = {toml(v)}" for k, v in value.items()) + " }"
+        return "{ " + ", ".join(f"{toml_key(str(k))} = {toml(v, depth + 1)}" for k, v in value.items()) + " }"
     if isinstance(value, Sequence):
-        return "[" + ", ".join(toml(item) for item in value) + "]"
+        return "[" + ", ".join(toml(item, depth + 1) for item in value) + "]"
     raise InputError(f"a {type(value).__name__} is not a text, a number or a list: {value!r}")
 
 
