@@ -80,7 +80,10 @@ fn another_payload_is_that_of_the_arm_built_with_it() {
     let too_much =
         ["payload", "logs/campaign.toml", "--mass", "9 kg", "--at", "25 cm", "--to", "1 g"];
     assert!(refused(at, &too_much).contains("cannot be predicted"));
-    assert!(refused(at, &with(&["--to", "60 g", "--tip", "elbow"])).contains("--tip is none"));
+    assert!(
+        refused(at, &with(&["--to", "60 g", "--tip", "elbow"]))
+            .contains("\"elbow\" is none of the tips")
+    );
     assert!(
         refused(at, &["payload", "logs/campaign.toml", "--mass", "50 g", "--to", "1 g"])
             .contains("--at")

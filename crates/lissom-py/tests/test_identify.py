@@ -235,7 +235,6 @@ def test_ctrl_c_is_heard_by_a_plan() -> None:
     try:
         with pytest.raises(KeyboardInterrupt):
             lissom.plan({**ARM, "beam": beam}, precision=1e-3)
-            time.sleep(5)
     finally:
         timer.cancel()
     assert time.monotonic() - asked[0] < 0.2
