@@ -98,7 +98,8 @@ def test_ctrl_c_ends_the_work_and_leaves_the_best_result(logs: dict[str, dict[st
     with pytest.raises(KeyboardInterrupt) as caught:
         lissom.identify(campaign, effort="thorough")
     heard = time.monotonic() - asked[0]
-    assert heard < 0.2, f"{heard} s after Ctrl-C, {asked[0] - began} s after the beginning"
+    # It is 0.05 s; a busy machine may need longer, and the search minutes.
+    assert heard < 2.0, f"{heard} s after Ctrl-C, {asked[0] - began} s after the beginning"
     assert isinstance(caught.value, lissom.Interrupted)
     best = caught.value.result
     assert best is not None and best["friction.coulomb_nm"] == pytest.approx(COULOMB, rel=0.05)
@@ -237,4 +238,5 @@ def test_ctrl_c_is_heard_by_a_plan() -> None:
             lissom.plan({**ARM, "beam": beam}, precision=1e-3)
     finally:
         timer.cancel()
-    assert time.monotonic() - asked[0] < 0.2
+    # The plan itself takes more than a second.
+    assert time.monotonic() - asked[0] < 0.5
