@@ -280,6 +280,9 @@ def test_logs_describe_themselves(tmp_path: Path, logs: dict[str, dict[str, Any]
     found = lissom.identify(pickle.loads(pickle.dumps(campaign)), effort="quick")["drive.inertia_kg_m2"]
     assert found == pytest.approx(2e-3, rel=0.01)
     assert np.array_equal(campaign.like(path).runs[0].motor, campaign.runs[0].motor)
+    part = tmp_path / "part.csv"
+    part.write_text("\n".join(lines[:2003]))
+    assert len(pickle.loads(pickle.dumps(campaign.like(part))).runs[0].motor) == 2000
     with pytest.raises(lissom.InputError, match="Positions"):
         lissom.Campaign.of_logs(path, motor="Positions:deg")
     bare = tmp_path / "bare.csv"

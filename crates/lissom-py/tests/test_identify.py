@@ -98,8 +98,7 @@ def test_ctrl_c_ends_the_work_and_leaves_the_best_result(logs: dict[str, dict[st
     with pytest.raises(KeyboardInterrupt) as caught:
         lissom.identify(campaign, effort="thorough")
     heard = time.monotonic() - asked[0]
-    # It is 0.05 s; a busy machine may need longer, and the search minutes.
-    assert heard < 2.0, f"{heard} s after Ctrl-C, {asked[0] - began} s after the beginning"
+    assert heard < 0.2, f"{heard} s after Ctrl-C, {asked[0] - began} s after the beginning"
     assert isinstance(caught.value, lissom.Interrupted)
     best = caught.value.result
     assert best is not None and best["friction.coulomb_nm"] == pytest.approx(COULOMB, rel=0.05)
@@ -239,4 +238,4 @@ def test_ctrl_c_is_heard_by_a_plan() -> None:
     finally:
         timer.cancel()
     # The plan itself takes more than a second.
-    assert time.monotonic() - asked[0] < 0.5
+    assert time.monotonic() - asked[0] < 0.2

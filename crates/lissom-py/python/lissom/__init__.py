@@ -11,7 +11,7 @@ that say what the log cannot tell:
 Numbers are in SI units and rad/s; keys end with their unit, as in ``result["friction.coulomb_nm"]``.
 """
 
-from ._campaign import Campaign, Run
+from ._campaign import Campaign
 from ._errors import FileError, InputError, LissomError, RefusedError
 from ._estimate import Estimate
 from ._finding import Finding
@@ -21,6 +21,7 @@ from ._lissom import __version__
 from ._plan import Plan
 from ._plots import ResultPlots
 from ._result import Result
+from ._run import Run
 from ._signal import Signal
 from ._tables import Log
 from ._validation import Validation

@@ -3,22 +3,19 @@
 from __future__ import annotations
 
 import os
-from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass
+from collections.abc import Mapping, Sequence
 from numbers import Real
 from pathlib import Path as FilePath
 from typing import TYPE_CHECKING, Any, cast
 
-import numpy as np
-from numpy.typing import NDArray
-
 from . import _lissom
+from ._campaign_text import campaign_text, columns_of, memory_name
 from ._errors import FileError, InputError
 from ._lissom import Campaign as Native
 from ._process import use
+from ._run import Run
 from ._signal import Signal
-from ._tables import Log, Path, columns, is_path, is_time, several
-from ._toml import toml
+from ._tables import Log, Path, columns, is_path, is_time, path_text, several
 
 if TYPE_CHECKING:
     from ._lissom import _Columns as Columns
@@ -37,34 +34,6 @@ _DRIVE = (
     "arm",
 )
 _INPUTS = ("current", "voltage", "torque", "command")
-
-
-@dataclass(frozen=True, eq=False)
-class Run:
-    """A run of a campaign, as it is identified: evenly sampled, in SI units.
-
-    Parameters
-    ----------
-    name : str
-        Its name.
-    sample_time_s : float
-        Its sample time [s].
-    time : array, shape (n,)
-        Time of each sample [s].
-    command : array, shape (n,)
-        Current [A], voltage [V], torque [N·m] or command.
-    motor : array, shape (n,)
-        Angle of the motor [rad]; position [m] on a linear axis.
-    tips : mapping of str to array, shape (n,)
-        Each tip by its name, in SI units of its quantity.
-    """
-
-    name: str
-    sample_time_s: float
-    time: NDArray[np.float64]
-    command: NDArray[np.float64]
-    motor: NDArray[np.float64]
-    tips: Mapping[str, NDArray[np.float64]]
 
 
 class Campaign:
@@ -161,7 +130,7 @@ class Campaign:
             signals["tips"] = [_tip(Signal.of(tip)) for tip in tips]
         if run is not None:
             signals["run"] = run
-        tables: dict[str, object] = {"signals": signals}
+        tables: dict[str, Mapping[str, object]] = {"signals": signals}
         unknown = [key for key in drive if key not in _DRIVE]
         if unknown:
             raise TypeError(f"Campaign has no argument {unknown[0]!r}; constants of the drive are {', '.join(_DRIVE)}")
@@ -175,16 +144,28 @@ class Campaign:
         if any(value is not None for value in analysis.values()):
             tables["analysis"] = {k: _with_unit(v, "s") for k, v in analysis.items() if v is not None}
         self._tables = tables
-        self._logs: list[tuple[str, Log]] = _named(runs)
-        self._path: FilePath | None = None
-        self._native: Native | None = None
+        self._logs = _named(runs)
         if any(not is_path(log) for _, log in self._logs):
             # Arrays may change later: they are copied now.
             self._read()
 
-    #: The text of a campaign.toml that describes logs, if it is not made of `_tables`.
+    #: Tables of a campaign.toml and its runs; empty if `_path` or `_described` has them.
+    _tables: Mapping[str, Mapping[str, object]] = {}
+    _logs: Sequence[tuple[str, Log]] = ()
+    #: The campaign.toml that was read.
+    _path: FilePath | None = None
+    #: The text of a campaign.toml that `of_logs` made.
     _described: str | None = None
     _notes: tuple[str, ...] = ()
+    #: A log that is read in place of the runs of `_path` or `_described`.
+    _only: str | None = None
+    #: What was read.
+    _native: Native | None = None
+
+    @classmethod
+    def _empty(cls) -> Campaign:
+        """Make a campaign without a description."""
+        return cls.__new__(cls)
 
     @property
     def notes(self) -> tuple[str, ...]:
@@ -212,11 +193,9 @@ class Campaign:
         InputError
             If a description or a log cannot be used.
         """
-        made = cls.__new__(cls)
-        made._tables, made._logs = {}, []
-        use()
-        made._path = FilePath(_path(path))
-        made._native = Native.of_file(_path(path))
+        made = cls._empty()
+        made._path = FilePath(path_text(path))
+        made._read()
         return made
 
     @classmethod
@@ -294,7 +273,7 @@ class Campaign:
         given = several(cast("Log", logs))
         if not all(is_path(log) for log in given):
             raise InputError("of_logs takes files", "describe a table in memory with Campaign(table, time=..., ...)")
-        files = [_path(log) for log in given]
+        files = [path_text(log) for log in given]
         texts = {
             "time": time,
             "sample_time": None if sample_time is None else _with_unit(sample_time, "s"),
@@ -316,9 +295,8 @@ class Campaign:
         if gear_ratio is not None:
             drive.append(("gear_ratio", str(float(gear_ratio))))
         text, notes = _lissom.describe(files, said, list(tips), drive, gravity, header_row, skip_rows)
-        made = cls.__new__(cls)
-        made._tables, made._path, made._native, made._notes = {}, None, None, tuple(notes)
-        made._logs, made._described = [(file, file) for file in files], text
+        made = cls._empty()
+        made._logs, made._described, made._notes = [(file, file) for file in files], text, tuple(notes)
         return made
 
     def save(self, path: Path) -> None:
@@ -348,19 +326,7 @@ class Campaign:
         if self._described is not None:
             raise InputError("this campaign was made by of_logs", "write it with `lissom init`")
         folder = target.parent.resolve()
-        moved = dict(cast("dict[str, object]", self._tables.get("drive", {})))
-
-        def from_folder(file: str) -> str:
-            return os.path.relpath(FilePath(file).resolve(), folder)
-
-        if "arm" in moved:
-            moved["arm"] = from_folder(str(moved["arm"]))
-        tables = self._tables
-        self._tables = {**tables, "drive": moved} if moved else tables
-        try:
-            text = self._text(from_folder)
-        finally:
-            self._tables = tables
+        text = campaign_text(self._tables, self._logs, lambda file: os.path.relpath(FilePath(file).resolve(), folder))
         try:
             with open(target, "x", encoding="utf-8") as file:
                 file.write(text)
@@ -370,7 +336,7 @@ class Campaign:
     @property
     def runs(self) -> tuple[Run, ...]:
         """The runs as they are identified: evenly sampled, in SI units, with names."""
-        return tuple(_run(entry) for entry in self._read().runs())
+        return tuple(Run._of(entry) for entry in self._read().runs())
 
     @property
     def tips(self) -> tuple[str, ...]:
@@ -390,24 +356,19 @@ class Campaign:
         Campaign
             The campaign of these logs.
         """
-        made = Campaign.__new__(Campaign)
-        made._tables, made._path, made._native = self._tables, None, None
-        made._logs = _named(runs)
-        if self._described is not None:
-            one = made._logs[0][1]
-            if len(made._logs) != 1 or not is_path(one):
-                raise InputError("a campaign that was made by of_logs takes one other log, a path")
-            made._described = self._described
-            made._native = Native.of_text("campaign", self._described, [], os.fspath(cast("Path", one)))
-            return made
-        if self._path is not None:
-            if len(made._logs) != 1 or not is_path(made._logs[0][1]):
-                raise InputError(
-                    "a campaign that was read from a campaign.toml takes one other log, a path",
-                    "make the campaign with Campaign(...) for several logs or tables in memory",
-                )
-            made._path = self._path
-            made._native = Native.of_file(os.fspath(self._path), os.fspath(cast("Path", made._logs[0][1])))
+        made = Campaign._empty()
+        made._tables, made._path, made._described = self._tables, self._path, self._described
+        logs = _named(runs)
+        if self._path is None and self._described is None:
+            made._logs = logs
+        elif len(logs) == 1 and is_path(logs[0][1]):
+            made._only = path_text(logs[0][1])
+            made._read()
+        else:
+            raise InputError(
+                "a campaign of a campaign.toml or of of_logs takes one other log, a path",
+                "make the campaign with Campaign(...) for several logs or tables in memory",
+            )
         return made
 
     def __repr__(self) -> str:
@@ -417,35 +378,31 @@ class Campaign:
         more = ", ..." if len(self._logs) > 3 else ""
         return f"<Campaign of {len(self._logs)} logs: {names}{more}>"
 
-    def __reduce__(self) -> tuple[Any, ...]:
-        return (_restored, (self._tables, self._logs, self._path, self._described, self._notes))
-
-    def _text(self, file: Callable[[str], str] | None = None) -> str:
-        """Write the campaign.toml."""
-        if self._described is not None:
-            return self._described
-        lines = []
-        for table, content in self._tables.items():
-            lines.append(f"[{table}]")
-            entries = cast("Mapping[str, object]", content).items()
-            lines += [f"{key} = {toml(_moved(value, file) if file else value)}" for key, value in entries]
-        for place, (name, log) in enumerate(self._logs):
-            path = _path(log) if is_path(log) else _memory(place)
-            lines += ["[[runs]]", f"file = {toml(file(path) if file else path)}"]
-            if name != path:
-                lines.append(f"name = {toml(name)}")
-        return "\n".join(lines) + "\n"
+    def __getstate__(self) -> dict[str, Any]:
+        # What was read is read again where it arrives.
+        return {key: value for key, value in self.__dict__.items() if key != "_native"}
 
     def _read(self) -> Native:
         use()
         if self._native is None:
-            tables = [(place, name, log) for place, (name, log) in enumerate(self._logs) if not is_path(log)]
-            wanted = _columns_of(self._tables) if tables else set()
-            for _, name, log in tables:
-                self._times_are_seconds(name, log)
-            memory: list[tuple[str, Columns]] = [(_memory(place), columns(log, name, wanted)) for place, name, log in tables]
-            self._native = Native.of_text("campaign", self._text(), memory)
+            if self._path is not None:
+                self._native = Native.of_file(os.fspath(self._path), self._only)
+            elif self._described is not None:
+                self._native = Native.of_text("campaign", self._described, [], self._only)
+            else:
+                text = campaign_text(self._tables, self._logs)
+                self._native = Native.of_text("campaign", text, self._in_memory())
         return self._native
+
+    def _in_memory(self) -> list[tuple[str, Columns]]:
+        """Give the tables in memory, with the names of their runs in the text."""
+        wanted = columns_of(self._tables["signals"])
+        tables = []
+        for place, (name, log) in enumerate(self._logs):
+            if not is_path(log):
+                self._times_are_seconds(name, log)
+                tables.append((memory_name(place), columns(log, name, wanted)))
+        return tables
 
     def _times_are_seconds(self, name: str, log: Log) -> None:
         """Refuse another unit of dates and durations, which are converted to seconds."""
@@ -456,49 +413,6 @@ class Campaign:
                 f'{name}: column "{time["column"]}" has dates or durations, which are converted to seconds',
                 f'give its unit as "s" in place of "{time["unit"]}"',
             )
-
-
-def _memory(place: int) -> str:
-    """Give the name of a table in memory in the text of a campaign; no file is called so."""
-    return f"\u2060table {place + 1}"
-
-
-def _columns_of(tables: Mapping[str, object]) -> set[str | int]:
-    """Give the columns that a campaign names."""
-    signals = cast("dict[str, Any]", tables["signals"])
-    entries = [value for value in signals.values() if isinstance(value, dict)] + list(signals.get("tips", []))
-    wanted = {entry["column"] for entry in entries if "file" not in entry}
-    return wanted | ({signals["run"]} if "run" in signals else set())
-
-
-def _moved(value: object, file: Callable[[str], str]) -> object:
-    """Give a value in which paths of other logs start from another folder."""
-    if isinstance(value, dict):
-        return {key: file(item) if key == "file" else item for key, item in value.items()}
-    if isinstance(value, list):
-        return [_moved(item, file) for item in value]
-    return value
-
-
-def _restored(
-    tables: dict[str, object],
-    logs: list[tuple[str, Log]],
-    path: FilePath | None,
-    described: str | None,
-    notes: tuple[str, ...],
-) -> Campaign:
-    made = Campaign.__new__(Campaign)
-    made._described, made._notes = described, notes
-    made._tables, made._logs, made._path, made._native = tables, logs, path, None
-    if path is not None:
-        only = os.fspath(cast("Path", logs[0][1])) if logs else None
-        made._native = Native.of_file(os.fspath(path), only)
-    return made
-
-
-def _run(entry: dict[str, Any]) -> Run:
-    tips = {key[len("tip ") :]: value for key, value in entry.items() if key.startswith("tip ")}
-    return Run(entry["name"], entry["sample_time_s"], entry["time"], entry["command"], entry["motor"], tips)
 
 
 def _named(runs: Any) -> list[tuple[str, Log]]:
@@ -516,17 +430,11 @@ def _named(runs: Any) -> list[tuple[str, Log]]:
     named, count = [], 0
     for log in logs:
         if is_path(log):
-            named.append(_path(log))
+            named.append(path_text(log))
         else:
             count += 1
             named.append("table" if tables == 1 else f"table {count}")
     return list(zip(named, logs, strict=True))
-
-
-def _path(log: Any) -> str:
-    """Give a path as a text."""
-    path = os.fspath(log)
-    return os.fsdecode(path) if isinstance(path, bytes) else str(path)
 
 
 #: Names of the motor's channels in results.

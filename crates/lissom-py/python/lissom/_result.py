@@ -274,7 +274,7 @@ class Result:
             if key not in places:
                 raise InputError(f"there is no covariance of {key}", f"there is one of {', '.join(places)}")
         rows = [places[key] for key in wanted]
-        std = np.array([self._std(key) for key in wanted])
+        std = np.array([estimate.std for estimate in map(self.__getitem__, wanted) if estimate is not None])
         correlation = np.array([[known["matrix"][i][j] for j in rows] for i in rows], dtype=np.float64)
         return wanted, correlation.reshape(len(rows), len(rows)) * np.outer(std, std)
 
@@ -507,10 +507,6 @@ class Result:
         if (into is None) != (joint is None):
             raise InputError("`joint` and `into` are given together, or neither of them")
         return _lissom.export(self._text, target, None if into is None else os.fspath(into), joint)
-
-    def _std(self, key: str) -> float:
-        found = self[key]
-        return float("nan") if found is None else found.std
 
     def _no_key(self, key: str) -> str:
         return f"{key}; the keys are {', '.join(self._listed)}"

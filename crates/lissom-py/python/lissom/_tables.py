@@ -45,6 +45,22 @@ def is_path(log: object) -> bool:
     return isinstance(log, (str, os.PathLike))
 
 
+def path_text(log: Any) -> str:
+    """Give a path as a text.
+
+    Parameters
+    ----------
+    log : path
+        A path.
+
+    Returns
+    -------
+    str
+        Its text.
+    """
+    return os.fsdecode(os.fspath(log))
+
+
 def columns(log: Log, what: str, wanted: Collection[str | int] = ()) -> Columns:
     """Give the columns of a table: float64 arrays, or lists of words.
 

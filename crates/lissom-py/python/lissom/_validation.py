@@ -37,7 +37,7 @@ class Validation:
     @property
     def residuals(self) -> tuple[dict[str, Any], ...]:
         """Residual of each channel, motor first: measured minus predicted motion."""
-        return tuple(json.loads(self._data)["residuals"])
+        return tuple(self.to_dict()["residuals"])
 
     @functools.cached_property
     def findings(self) -> tuple[Finding, ...]:
