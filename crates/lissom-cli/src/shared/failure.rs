@@ -89,6 +89,9 @@ impl Failure {
                 "add --at LENGTH: the payload's inertia is its mass times the square of this distance"
                     .to_owned(),
             ),
+            Self::Payload { source: PayloadError::NoArm, .. } => {
+                Some("run `lissom identify` on this campaign and read its findings".to_owned())
+            }
             Self::Payload { source, .. } => Some(source.hint().to_owned()),
             Self::Model { hint, .. } | Self::Asked(_, hint) => Some((*hint).to_owned()),
             Self::Equivalent { source, place, .. } => {
