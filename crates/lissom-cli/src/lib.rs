@@ -16,6 +16,8 @@ use std::ffi::OsString;
 use clap::Parser as _;
 
 use crate::args::command_line::{Cli, Command};
+#[cfg(feature = "fleet")]
+use crate::commands::fleet_command;
 use crate::commands::{
     check_command, compare_command, completions_command, demo, equivalent, export_command,
     identify_command, init_command, inspect_command, man_command, model_command, payload_command,
@@ -24,15 +26,20 @@ use crate::commands::{
 use crate::shared::exit_codes::ExitCode;
 use crate::views::printer;
 
-/// Runs the command with its arguments, of which the first is the name of the program. Returns the exit code; ends the
-/// program if the arguments are wrong, if they ask for help, and after a second Ctrl-C.
-pub fn run(arguments: impl IntoIterator<Item = OsString>) -> u8 {
+/// Runs the command with its arguments, of which the first is the name of the program. `own` starts this command in a
+/// process of its own: a program, and its arguments before those of the command. Returns the exit code; ends the program
+/// if the arguments are wrong, if they ask for help, and after a second Ctrl-C.
+pub fn run(arguments: impl IntoIterator<Item = OsString>, own: &[OsString]) -> u8 {
+    #[cfg(not(feature = "fleet"))]
+    let _ = own;
     let outcome = match Cli::parse_from(arguments).command {
         Command::Inspect(args) => inspect_command::run(&args),
         Command::Init(args) => init_command::run(&args),
         Command::Identify(args) => identify_command::run(&args),
         Command::Validate(args) => validate_command::run(&args),
         Command::Check(args) => check_command::run(&args),
+        #[cfg(feature = "fleet")]
+        Command::Fleet(args) => fleet_command::run(&args, own),
         Command::Compare(args) => compare_command::run(&args),
         Command::Export(args) => export_command::run(&args),
         Command::Equivalent(args) => equivalent::run(&args),

@@ -4,6 +4,7 @@ use std::error::Error as _;
 
 use lissom::Error;
 use lissom::io::LogError;
+use lissom_fleet::FleetError;
 use pyo3::exceptions::PyRuntimeError;
 use pyo3::prelude::*;
 
@@ -45,6 +46,18 @@ fn is_of_file(error: &Error) -> bool {
         cause = error.source();
     }
     false
+}
+
+/// The exception of a fleet that cannot go on.
+pub(crate) fn fleet_raised(py: Python<'_>, error: &FleetError) -> PyErr {
+    let class = match error {
+        FleetError::Read { .. } | FleetError::Write(_) | FleetError::InUse { .. } => "FileError",
+        FleetError::Version { .. } | FleetError::Worker { .. } | FleetError::Stopped => {
+            "LissomError"
+        }
+        _ => "InputError",
+    };
+    exception(py, class, &error.to_string(), error.hint().as_deref())
 }
 
 /// The exception of any error of the library.

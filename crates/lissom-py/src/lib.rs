@@ -13,6 +13,7 @@ mod comparing;
 mod describing;
 mod errors;
 mod exporting;
+mod fleet;
 mod found;
 mod identifying;
 mod inspecting;
@@ -37,6 +38,11 @@ mod _lissom {
     use crate::describing::describe;
     #[pymodule_export]
     use crate::exporting::export;
+    #[pymodule_export]
+    use crate::fleet::{
+        FleetWorker, NativeFleetRun, fleet_columns, fleet_logs, fleet_manifest, fleet_page_of,
+        fleet_pattern, fleet_summary, fleet_time,
+    };
     #[pymodule_export]
     use crate::found::NativeFound;
     #[pymodule_export]

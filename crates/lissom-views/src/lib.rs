@@ -11,6 +11,7 @@
 //! | [`validation_plots()`] | the prediction of another log |
 //! | [`equivalent_plots`], [`equivalent_section`] | an equivalent arm |
 //! | [`payload_plot`] | a prediction with other payloads |
+//! | `fleet_page` (feature `fleet`) | a fleet |
 //!
 //! ```
 //! use lissom::prelude::*;
@@ -36,6 +37,8 @@ pub mod bode_plots;
 pub mod digits;
 pub mod equivalent_plots;
 pub mod equivalent_section;
+#[cfg(feature = "fleet")]
+pub mod fleet_page;
 pub mod friction_curve;
 pub mod known_arm;
 mod named_figure;

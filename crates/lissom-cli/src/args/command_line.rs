@@ -9,6 +9,8 @@ use super::demo_args::DemoArgs;
 use super::equivalent_args::EquivalentArgs;
 use super::export_args::ExportArgs;
 use super::figures_args::FiguresArgs;
+#[cfg(feature = "fleet")]
+use super::fleet_args::FleetArgs;
 use super::identify_args::IdentifyArgs;
 use super::init_args::InitArgs;
 use super::inspect_args::InspectArgs;
@@ -53,6 +55,9 @@ pub(crate) enum Command {
     Validate(ValidateArgs),
     /// Compare the parameters of a log with limits: pass or fail
     Check(CheckArgs),
+    /// Identify the logs of many machines; summarise them
+    #[cfg(feature = "fleet")]
+    Fleet(FleetArgs),
     /// Show the parameters of two or more results side by side
     Compare(CompareArgs),
     /// Write a model for python-control, MATLAB, MuJoCo, URDF or C

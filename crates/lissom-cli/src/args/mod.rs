@@ -8,6 +8,8 @@ pub(crate) mod demo_args;
 pub(crate) mod equivalent_args;
 pub(crate) mod export_args;
 pub(crate) mod figures_args;
+#[cfg(feature = "fleet")]
+pub(crate) mod fleet_args;
 pub(crate) mod identify_args;
 pub(crate) mod init_args;
 pub(crate) mod inspect_args;

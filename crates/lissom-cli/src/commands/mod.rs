@@ -6,6 +6,10 @@ pub(crate) mod completions_command;
 pub(crate) mod demo;
 pub(crate) mod equivalent;
 pub(crate) mod export_command;
+#[cfg(feature = "fleet")]
+pub(crate) mod fleet_command;
+#[cfg(feature = "fleet")]
+mod fleet_summary_command;
 pub(crate) mod identify_command;
 pub(crate) mod init_command;
 pub(crate) mod inspect_command;

@@ -35,6 +35,9 @@ pub(crate) enum Failure {
     /// Responses from which no equivalent arm can be built.
     #[error("{}: {source}", input.display())]
     Equivalent { input: PathBuf, source: Box<EquivalentRefusal>, place: Option<String> },
+    #[cfg(feature = "fleet")]
+    #[error(transparent)]
+    Fleet(#[from] lissom_fleet::FleetError),
     /// A request that cannot be fulfilled, with a hint.
     #[error("{0}")]
     Asked(String, &'static str),
@@ -77,6 +80,8 @@ impl Failure {
     pub(crate) fn hint(&self) -> Option<String> {
         match self {
             Self::Write(error) => error.hint(),
+            #[cfg(feature = "fleet")]
+            Self::Fleet(error) => error.hint(),
             Self::NoResult(lissom_io::Error::Result(
                 ResultError::Read { .. } | ResultError::Json { .. } | ResultError::NoResult { .. },
             )) => Some("give files that `lissom identify CAMPAIGN --json FILE` wrote".to_owned()),

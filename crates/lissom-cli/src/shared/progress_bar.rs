@@ -3,6 +3,8 @@
 use std::thread;
 use std::time::Duration;
 
+#[cfg(feature = "fleet")]
+use indicatif::HumanDuration;
 use indicatif::{ProgressBar, ProgressStyle};
 use lissom::identify::{Interrupt, Options, Stage};
 
@@ -83,4 +85,40 @@ impl Stages {
 /// Number of stages of an identification of `runs` runs.
 pub(crate) fn steps(runs: usize) -> usize {
     runs + 4
+}
+
+/// Progress of a fleet.
+#[cfg(feature = "fleet")]
+pub(crate) struct FleetBar {
+    bar: ProgressBar,
+}
+
+#[cfg(feature = "fleet")]
+impl FleetBar {
+    /// A bar of so many logs.
+    pub(crate) fn new(logs: usize) -> Self {
+        let bar = ProgressBar::new(logs as u64);
+        let style = ProgressStyle::with_template("[{bar:36}] {pos}/{len} logs{msg}");
+        if let Ok(style) = style {
+            bar.set_style(style.progress_chars("=> "));
+        }
+        Self { bar }
+    }
+
+    /// Shows how far the run is.
+    pub(crate) fn show(&self, progress: &lissom_fleet::Progress) {
+        self.bar.set_position((progress.before + progress.done) as u64);
+        let failed = match progress.failed {
+            0 => String::new(),
+            failed => format!(", {failed} failed"),
+        };
+        let left = progress.left_time().map(HumanDuration);
+        let left = left.map_or_else(String::new, |left| format!(", about {left} left"));
+        self.bar.set_message(format!("{failed}{left} (Ctrl-C: stop, and go on later)"));
+    }
+
+    /// Removes the bar.
+    pub(crate) fn finish(&self) {
+        self.bar.finish_and_clear();
+    }
 }

@@ -10,6 +10,10 @@ pub(crate) mod demo_table;
 pub(crate) mod draft_lines;
 pub(crate) mod equivalent_table;
 pub(crate) mod finding_list;
+#[cfg(feature = "fleet")]
+pub(crate) mod fleet_run_lines;
+#[cfg(feature = "fleet")]
+pub(crate) mod fleet_summary_table;
 pub(crate) mod friction_truth;
 pub(crate) mod inspection_table;
 pub(crate) mod load_table;

@@ -11,8 +11,11 @@ pub struct PathPattern {
 }
 
 impl PathPattern {
-    /// Reads a pattern; `Err` says what is wrong.
-    pub(super) fn parse(pattern: &str) -> Result<Self, &'static str> {
+    /// Reads a pattern.
+    ///
+    /// # Errors
+    /// What is expected in its place.
+    pub fn parse(pattern: &str) -> Result<Self, &'static str> {
         let (mut texts, mut names) = (Vec::new(), Vec::new());
         let mut rest = pattern;
         while let Some(at) = rest.find('{') {

@@ -15,6 +15,9 @@ from ._campaign import Campaign
 from ._errors import FileError, InputError, LissomError, RefusedError
 from ._estimate import Estimate
 from ._finding import Finding
+from ._fleet import Fleet
+from ._fleet_run import fleet
+from ._fleet_summary import Drift, FleetSummary, Outlier, ParameterSummary
 from ._functions import compare, identify, inspect, plan, simulate, validate
 from ._interrupted import Interrupted
 from ._lissom import __version__
@@ -28,13 +31,18 @@ from ._validation import Validation
 
 __all__ = [
     "Campaign",
+    "Drift",
     "Estimate",
     "FileError",
     "Finding",
+    "Fleet",
+    "FleetSummary",
     "InputError",
     "Interrupted",
     "LissomError",
     "Log",
+    "Outlier",
+    "ParameterSummary",
     "Plan",
     "RefusedError",
     "Result",
@@ -44,6 +52,7 @@ __all__ = [
     "Validation",
     "__version__",
     "compare",
+    "fleet",
     "identify",
     "inspect",
     "plan",

@@ -3,6 +3,7 @@
 import sys
 
 from ._lissom import command
+from ._own_command import own_command
 
 
 def main() -> int:
@@ -13,7 +14,7 @@ def main() -> int:
     int
         The exit code.
     """
-    return command(["lissom", *sys.argv[1:]])
+    return command(["lissom", *sys.argv[1:]], own_command())
 
 
 if __name__ == "__main__":

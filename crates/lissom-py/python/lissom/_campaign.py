@@ -371,6 +371,17 @@ class Campaign:
             )
         return made
 
+    def _fleet_text(self) -> tuple[str, str]:
+        """Give the text that describes every log of a fleet, and what errors call it."""
+        if self._path is not None:
+            try:
+                return str(self._path.resolve()), self._path.read_text(encoding="utf-8-sig")
+            except OSError as error:
+                raise FileError(f"{self._path}: {error.strerror}", "check the name") from error
+        if self._described is not None:
+            return "campaign", self._described
+        return "campaign", campaign_text(self._tables, [], lambda file: str(FilePath(file).resolve()))
+
     def __repr__(self) -> str:
         if self._path is not None:
             return f"Campaign.load({os.fspath(self._path)!r})"

@@ -1,0 +1,113 @@
+//! `lissom fleet`.
+
+use std::ffi::OsString;
+use std::fs::File;
+use std::io::{self, BufReader};
+use std::num::NonZeroUsize;
+use std::path::Path;
+use std::thread;
+
+use lissom_fleet::{
+    EffortName, FleetError, FleetLog, FleetRun, FleetSettings, LogPattern, Refinement,
+    WorkerProgram, logs_of_paths, logs_of_table, open, run_here, serve,
+};
+use lissom_io::read_text;
+
+use crate::args::fleet_args::{FleetArgs, FleetCommand, FleetRunArgs, FleetTableArgs};
+use crate::args::identify_args::EffortArg;
+use crate::commands::fleet_summary_command;
+use crate::shared::exit_codes::ExitCode;
+use crate::shared::failure::Failure;
+use crate::shared::interrupted::stopped_by_ctrl_c;
+use crate::shared::progress_bar::FleetBar;
+use crate::views::fleet_run_lines;
+
+/// `own` is how this program is started: program and arguments, without those of the command.
+pub(crate) fn run(args: &FleetArgs, own: &[OsString]) -> Result<ExitCode, Failure> {
+    match &args.command {
+        Some(FleetCommand::Summary(args)) => fleet_summary_command::run(args),
+        Some(FleetCommand::Table(args)) => table(args),
+        Some(FleetCommand::Worker) => {
+            // The program that asked is gone if this fails.
+            let _ = serve(io::stdin().lock(), io::stdout().lock());
+            Ok(ExitCode::SUCCESS)
+        }
+        None => identify(&args.run, own),
+    }
+}
+
+fn identify(args: &FleetRunArgs, own: &[OsString]) -> Result<ExitCode, Failure> {
+    let (Some(like), Some(out)) = (&args.like, &args.out) else {
+        return Err(Failure::Asked(
+            "--like and --out are missing".to_owned(),
+            "lissom fleet LOGS --like campaign.toml --out DIR",
+        ));
+    };
+    let Some((program, arguments)) = own.split_first() else {
+        return Err(Failure::Asked("this program has no name".to_owned(), "start it by its name"));
+    };
+    let mut arguments = arguments.to_vec();
+    arguments.extend(["fleet", "worker"].map(OsString::from));
+    let program = WorkerProgram { program: program.into(), arguments };
+    let run = FleetRun::begin(out, settings(args, like)?, logs(args, like, out)?, !args.new)?;
+    let cores = || thread::available_parallelism().unwrap_or(NonZeroUsize::MIN);
+    let workers = args.workers.unwrap_or_else(cores);
+    let bar = FleetBar::new(run.progress().logs);
+    let outcome = run_here(run, workers, &program, stopped_by_ctrl_c(), |p| bar.show(p));
+    bar.finish();
+    match outcome {
+        Ok(progress) => {
+            fleet_run_lines::print(&open(out)?, &progress, workers)?;
+            Ok(ExitCode::SUCCESS)
+        }
+        Err(FleetError::Stopped) => {
+            fleet_run_lines::stopped(&open(out)?);
+            Ok(ExitCode::INTERRUPTED)
+        }
+        Err(error) => Err(error.into()),
+    }
+}
+
+fn settings(args: &FleetRunArgs, like: &Path) -> Result<FleetSettings, Failure> {
+    let campaign =
+        read_text(like).map_err(|source| FleetError::Read { path: like.to_owned(), source })?;
+    let codes = args.refine_on.clone();
+    let more = EffortName::of(&args.refine);
+    Ok(FleetSettings {
+        effort: effort_name(args.effort),
+        refinement: more.map(|effort| Refinement { effort, codes }),
+        time_limit_s: args.time_limit,
+        retries: args.retries,
+        keep_results: args.results,
+        ..FleetSettings::new(like, campaign)
+    })
+}
+
+fn effort_name(effort: EffortArg) -> EffortName {
+    match effort {
+        EffortArg::Quick => EffortName::Quick,
+        EffortArg::Normal => EffortName::Normal,
+        EffortArg::Thorough => EffortName::Thorough,
+    }
+}
+
+fn logs(args: &FleetRunArgs, like: &Path, out: &Path) -> Result<Vec<FleetLog>, Failure> {
+    let pattern = args.pattern.as_deref().map(LogPattern::new).transpose()?;
+    let Some(table) = &args.table else {
+        return Ok(logs_of_paths(&args.logs, pattern.as_ref(), &[like, out])?);
+    };
+    let failed = |source| FleetError::Read { path: table.clone(), source };
+    let file = BufReader::new(File::open(table).map_err(failed)?);
+    let folder = table.parent().unwrap_or(Path::new(""));
+    let mut logs = logs_of_table(&table.display().to_string(), file, folder)?;
+    if let Some(pattern) = &pattern {
+        logs.iter_mut().try_for_each(|log| pattern.read(log))?;
+    }
+    Ok(logs)
+}
+
+fn table(args: &FleetTableArgs) -> Result<ExitCode, Failure> {
+    let table = open(&args.folder)?;
+    table.write_csv(&args.out)?;
+    Ok(ExitCode::SUCCESS)
+}

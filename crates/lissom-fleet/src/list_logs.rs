@@ -1,0 +1,222 @@
+//! Lists the logs of a fleet: files, folders, or a table of logs.
+
+use std::collections::HashSet;
+use std::fs;
+use std::io::Read;
+use std::path::{Path, PathBuf};
+
+use lissom_io::limits::PathPattern;
+
+use crate::fleet_error::FleetError;
+use crate::fleet_log::FleetLog;
+use crate::log_time::time_us;
+
+/// Names in a pattern, and columns of a table.
+const MACHINE: &str = "machine";
+const TIME: &str = "time";
+const LOG: &str = "log";
+
+/// What the end of a log's path says, as in `{machine}/{time}.csv`.
+#[derive(Debug, Clone)]
+pub struct LogPattern {
+    text: String,
+    pattern: PathPattern,
+}
+
+impl LogPattern {
+    /// Reads a pattern with the names `machine`, `time` or both in braces. Other names stand for any text.
+    ///
+    /// # Errors
+    /// [`FleetError::Pattern`] if it is not one.
+    pub fn new(pattern: &str) -> Result<Self, FleetError> {
+        let wrong = |problem: String| FleetError::Pattern { pattern: pattern.to_owned(), problem };
+        let read = PathPattern::parse(pattern)
+            .map_err(|expected| wrong(format!("it needs {expected}")))?;
+        if !pattern.contains("{machine}") && !pattern.contains("{time}") {
+            return Err(wrong("it has neither {machine} nor {time}".to_owned()));
+        }
+        Ok(Self { text: pattern.to_owned(), pattern: read })
+    }
+
+    /// Adds what the name of a log says.
+    ///
+    /// # Errors
+    /// [`FleetError::NotLikePattern`] if it does not have this form, [`FleetError::Time`] if its time is not one.
+    pub fn read(&self, log: &mut FleetLog) -> Result<(), FleetError> {
+        let Some(mut found) = self.pattern.read(&log.log) else {
+            return Err(FleetError::NotLikePattern {
+                log: log.log.clone(),
+                pattern: self.text.clone(),
+            });
+        };
+        if let Some(machine) = found.remove(MACHINE) {
+            log.machine = Some(machine);
+        }
+        if let Some(text) = found.remove(TIME) {
+            log.time_us = Some(time(&log.log, text)?);
+        }
+        Ok(())
+    }
+}
+
+fn time(log: &str, text: String) -> Result<i64, FleetError> {
+    time_us(&text).ok_or_else(|| FleetError::Time { log: log.to_owned(), text })
+}
+
+/// The logs below folders, in the order of their names, and files as they are given. Files and folders whose name begins with
+/// a dot are left out below folders, as are links to folders, and what is in `except`. A log that is given twice is one
+/// log.
+///
+/// # Errors
+/// [`FleetError::Read`] if a folder cannot be read, [`FleetError::NoLogs`] if there are none, and what
+/// [`LogPattern::read`] reports.
+pub fn logs_of_paths(
+    paths: &[PathBuf],
+    pattern: Option<&LogPattern>,
+    except: &[&Path],
+) -> Result<Vec<FleetLog>, FleetError> {
+    let mut files = Vec::new();
+    let except: Vec<PathBuf> = except.iter().filter_map(|path| path.canonicalize().ok()).collect();
+    for path in paths {
+        if path.is_dir() {
+            below(path, &except, &mut files)?;
+        } else {
+            files.push(path.clone());
+        }
+    }
+    if files.is_empty() {
+        let places: Vec<String> = paths.iter().map(|path| path.display().to_string()).collect();
+        return Err(FleetError::NoLogs { place: places.join(", ") });
+    }
+    let mut seen = HashSet::new();
+    let mut logs = Vec::with_capacity(files.len());
+    for file in files {
+        let mut log = FleetLog::new(file.display().to_string());
+        if !seen.insert(log.log.clone()) {
+            continue;
+        }
+        if let Some(pattern) = pattern {
+            pattern.read(&mut log)?;
+        }
+        // A name that is no Unicode text is not that of the file.
+        log.file = file.to_str().is_none().then_some(file);
+        logs.push(log);
+    }
+    Ok(logs)
+}
+
+fn below(folder: &Path, except: &[PathBuf], files: &mut Vec<PathBuf>) -> Result<(), FleetError> {
+    let failed = |source| FleetError::Read { path: folder.to_owned(), source };
+    let mut entries =
+        fs::read_dir(folder).and_then(Iterator::collect::<Result<Vec<_>, _>>).map_err(failed)?;
+    entries.sort_by_key(fs::DirEntry::file_name);
+    for entry in entries {
+        let (path, kind) = (entry.path(), entry.file_type().map_err(failed)?);
+        let is_left_out = || path.canonicalize().is_ok_and(|path| except.contains(&path));
+        if entry.file_name().to_string_lossy().starts_with('.') || is_left_out() {
+            continue;
+        }
+        if kind.is_dir() {
+            below(&path, except, files)?;
+        } else if kind.is_file() || path.is_file() {
+            files.push(path);
+        }
+    }
+    Ok(())
+}
+
+/// The logs of a table, CSV with a column `log` and, if they are known, `machine` and `time`. Paths are relative to
+/// `folder`.
+///
+/// # Errors
+/// [`FleetError::Table`] if a row or column is wrong, [`FleetError::NoLogs`] if it has no rows.
+pub fn logs_of_table(
+    name: &str,
+    table: impl Read,
+    folder: &Path,
+) -> Result<Vec<FleetLog>, FleetError> {
+    let wrong = |place: String, problem: String| FleetError::Table {
+        file: format!("{name}{place}"),
+        problem,
+    };
+    let mut reader = csv::ReaderBuilder::new().trim(csv::Trim::All).from_reader(table);
+    let header = reader.headers().map_err(|e| wrong(String::new(), e.to_string()))?.clone();
+    let column =
+        |wanted: &str| header.iter().position(|name| name.trim_start_matches('\u{feff}') == wanted);
+    let Some(of_log) = column(LOG) else {
+        let columns: Vec<&str> = header.iter().collect();
+        let problem = format!("there is no column \"{LOG}\"; it has {}", columns.join(", "));
+        return Err(wrong(String::new(), problem));
+    };
+    let (of_machine, of_time) = (column(MACHINE), column(TIME));
+    let (mut logs, mut seen) = (Vec::new(), HashSet::new());
+    for record in reader.records() {
+        let record = record.map_err(|e| wrong(String::new(), e.to_string()))?;
+        let row = || format!(", row {}", record.position().map_or(0, csv::Position::line));
+        let cell =
+            |column: Option<usize>| column.and_then(|c| record.get(c)).filter(|c| !c.is_empty());
+        let Some(log) = cell(Some(of_log)) else {
+            return Err(wrong(row(), "the log has no name".to_owned()));
+        };
+        if !seen.insert(log.to_owned()) {
+            return Err(wrong(row(), format!("{log} is listed twice")));
+        }
+        let time = cell(of_time).map(|text| {
+            let problem = || wrong(row(), format!("\"{text}\" is not a time"));
+            time_us(text).ok_or_else(problem)
+        });
+        let file = folder.join(log);
+        logs.push(FleetLog {
+            log: log.to_owned(),
+            file: (file != Path::new(log)).then_some(file),
+            machine: cell(of_machine).map(str::to_owned),
+            time_us: time.transpose()?,
+        });
+    }
+    if logs.is_empty() { Err(FleetError::NoLogs { place: name.to_owned() }) } else { Ok(logs) }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn folders_patterns_and_tables() {
+        let folder = tempfile::tempdir().unwrap();
+        for (machine, day) in [("m2", "2026-02-01"), ("m1", "2026-01-01"), ("m1", "2026-01-02")] {
+            fs::create_dir_all(folder.path().join(machine)).unwrap();
+            fs::write(folder.path().join(machine).join(format!("{day}.csv")), "").unwrap();
+        }
+        fs::write(folder.path().join("m1/.hidden"), "").unwrap();
+        let pattern = LogPattern::new("{machine}/{time}.csv").unwrap();
+        let paths = [folder.path().to_owned(), folder.path().join("m1/2026-01-02.csv")];
+        let logs = logs_of_paths(&paths, Some(&pattern), &[]).unwrap();
+        let machines: Vec<_> = logs.iter().map(|log| log.machine.as_deref().unwrap()).collect();
+        assert_eq!(machines, ["m1", "m1", "m2"]);
+        assert!(logs[0].time_us < logs[1].time_us && logs[1].time_us < logs[2].time_us);
+
+        fs::write(folder.path().join("m1/notes.txt"), "").unwrap();
+        let error = logs_of_paths(&paths, Some(&pattern), &[]).unwrap_err().to_string();
+        assert!(
+            error.ends_with("notes.txt: the path does not end like \"{machine}/{time}.csv\""),
+            "{error}"
+        );
+
+        let notes = folder.path().join("m1/notes.txt");
+        assert_eq!(logs_of_paths(&paths, Some(&pattern), &[&notes]).unwrap().len(), 3);
+
+        let table = "log,machine,time\nm1/2026-01-01.csv,A,2026-01-01\n\"b,1.csv\",,\n";
+        let logs = logs_of_table("table", table.as_bytes(), folder.path()).unwrap();
+        assert_eq!(logs[0].path(), folder.path().join("m1/2026-01-01.csv"));
+        assert_eq!((logs[1].log.as_str(), logs[1].machine.as_deref()), ("b,1.csv", None));
+        for (table, problem) in [
+            ("file\na.csv\n", "table: there is no column \"log\"; it has file"),
+            ("log\na\na\n", "table, row 3: a is listed twice"),
+            ("log,time\na,yesterday\n", "table, row 2: \"yesterday\" is not a time"),
+            ("log\n", "table: there are no logs"),
+        ] {
+            let error = logs_of_table("table", table.as_bytes(), Path::new("")).unwrap_err();
+            assert_eq!(error.to_string(), problem);
+        }
+    }
+}

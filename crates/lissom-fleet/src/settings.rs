@@ -1,0 +1,79 @@
+//! What is done with every log.
+
+use std::path::PathBuf;
+use std::time::Duration;
+
+use serde::{Deserialize, Serialize};
+
+use crate::effort_name::EffortName;
+use crate::row::{FleetRow, RowOutcome};
+use crate::version::VERSION;
+
+/// What is done with every log of a fleet.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct FleetSettings {
+    /// Version of lissom that made these settings.
+    pub version: String,
+    /// What errors call the campaign; a file in it is relative to the folder of this name.
+    pub campaign_name: PathBuf,
+    /// Text of the `campaign.toml` that describes every log; its runs are not read.
+    pub campaign: String,
+    /// Effort for every log.
+    pub effort: EffortName,
+    /// When a log is identified again with more effort.
+    pub refinement: Option<Refinement>,
+    /// Time for one log \[s\]. A search ends with its best result so far after 80 % of it; a process that needs longer is
+    /// ended.
+    pub time_limit_s: f64,
+    /// How often a log is tried again whose process ended unexpectedly.
+    pub retries: u32,
+    /// Whether the rows contain the whole result as JSON.
+    pub keep_results: bool,
+}
+
+/// A second identification with more effort.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
+pub struct Refinement {
+    /// Its effort.
+    pub effort: EffortName,
+    /// Codes of the findings that ask for it; if empty, every warning and refusal.
+    pub codes: Vec<String>,
+}
+
+/// Time limit of a log, if nothing else is said \[s\].
+pub const TIME_LIMIT_S: f64 = 60.0;
+/// Retries, if nothing else is said.
+pub const RETRIES: u32 = 2;
+/// Share of a log's time after which a search ends with its best result so far.
+const SEARCH_SHARE: f64 = 0.8;
+
+impl FleetSettings {
+    /// Quick for every log, normal effort where a warning or refusal asks for it.
+    pub fn new(campaign_name: impl Into<PathBuf>, campaign: impl Into<String>) -> Self {
+        Self {
+            version: VERSION.to_owned(),
+            campaign_name: campaign_name.into(),
+            campaign: campaign.into(),
+            effort: EffortName::Quick,
+            refinement: Some(Refinement { effort: EffortName::Normal, codes: Vec::new() }),
+            time_limit_s: TIME_LIMIT_S,
+            retries: RETRIES,
+            keep_results: false,
+        }
+    }
+
+    /// Whether a row is of more effort than every log has.
+    pub(crate) fn is_refined(&self, row: &FleetRow) -> bool {
+        matches!(&row.outcome, RowOutcome::Identified(found) if found.effort > self.effort)
+    }
+
+    /// The time for one log.
+    pub(crate) fn time_limit(&self) -> Duration {
+        Duration::try_from_secs_f64(self.time_limit_s).unwrap_or(Duration::MAX)
+    }
+
+    /// The time after which a search ends.
+    pub(crate) fn search_limit(&self) -> Duration {
+        Duration::try_from_secs_f64(SEARCH_SHARE * self.time_limit_s).unwrap_or(Duration::MAX)
+    }
+}

@@ -1,0 +1,152 @@
+//! A folder that is written.
+
+use std::collections::HashSet;
+use std::fs::{self, File, OpenOptions, TryLockError};
+use std::path::{Path, PathBuf};
+use std::time::{Duration, Instant};
+
+use lissom_io::write::{create_folder, write_whole};
+
+use super::manifest::{Manifest, PartEntry};
+use super::part::part_bytes;
+use super::part_columns::{LOG, Values, columns};
+use super::table::FleetTable;
+use crate::fleet_error::FleetError;
+use crate::row::FleetRow;
+use crate::settings::FleetSettings;
+use crate::version::VERSION;
+
+/// Shortest time between two writings of the manifest: work of this time is done again if the program is killed.
+const MANIFEST_EVERY: Duration = Duration::from_millis(500);
+/// File that is locked while a run writes.
+const LOCK: &str = ".lock";
+/// Ends of the names of parts.
+const PART: (&str, &str) = ("part-", ".parquet");
+
+/// A folder that is written by one run at a time.
+#[derive(Debug)]
+pub(crate) struct FleetFolder {
+    path: PathBuf,
+    manifest: Manifest,
+    next_part: u64,
+    written: Instant,
+    is_behind: bool,
+    _lock: File,
+}
+
+impl FleetFolder {
+    /// Opens a folder, or makes it. Also gives the names of logs that have rows.
+    pub(crate) fn open(
+        path: &Path,
+        settings: &FleetSettings,
+        resume: bool,
+    ) -> Result<(Self, HashSet<String>), FleetError> {
+        create_folder(path)?;
+        let lock = locked(path)?;
+        let manifest = match Manifest::read(path)? {
+            Some(_) if !resume => {
+                return Err(FleetError::NotEmpty { folder: path.to_owned() });
+            }
+            Some(found) => {
+                same(path, &found.settings, settings)?;
+                found
+            }
+            None => {
+                let manifest = Manifest::new(settings.clone());
+                manifest.write(path)?;
+                manifest
+            }
+        };
+        remove_others(path, &manifest)?;
+        let done = FleetTable::new(path.to_owned(), manifest.clone()).column(LOG)?;
+        let done = match done {
+            Some(Values::Text(names)) => names.into_iter().flatten().collect(),
+            _ => HashSet::new(),
+        };
+        let numbers = manifest.parts.iter().filter_map(|part| number(&part.file));
+        let next_part = numbers.max().map_or(1, |last| last + 1);
+        let (written, is_behind) = (Instant::now(), false);
+        let path = path.to_owned();
+        Ok((Self { path, manifest, next_part, written, is_behind, _lock: lock }, done))
+    }
+
+    /// Adds rows: a part, and the manifest now or at the next time.
+    pub(crate) fn add(&mut self, rows: &[FleetRow]) -> Result<(), FleetError> {
+        if rows.is_empty() {
+            return Ok(());
+        }
+        let file = format!("{}{:06}{}", PART.0, self.next_part, PART.1);
+        let path = self.path.join(&file);
+        let bytes = part_bytes(&columns(rows))
+            .map_err(|e| FleetError::Damaged { path: path.clone(), problem: e.to_string() })?;
+        write_whole(&path, |out| out.write_all(&bytes))?;
+        self.next_part += 1;
+        let failed = rows.iter().filter(|row| row.failure().is_some()).count();
+        let seconds = rows.iter().map(|row| row.seconds).sum();
+        self.manifest.parts.push(PartEntry { file, rows: rows.len(), failed, seconds });
+        self.is_behind = true;
+        if self.written.elapsed() >= MANIFEST_EVERY { self.finish() } else { Ok(()) }
+    }
+
+    /// Writes the manifest, if it is behind.
+    pub(crate) fn finish(&mut self) -> Result<(), FleetError> {
+        if self.is_behind {
+            self.manifest.write(&self.path)?;
+            (self.written, self.is_behind) = (Instant::now(), false);
+        }
+        Ok(())
+    }
+}
+
+/// Locks a folder, as long as the file is open.
+fn locked(folder: &Path) -> Result<File, FleetError> {
+    let path = folder.join(LOCK);
+    let failed = |source| FleetError::Read { path: path.clone(), source };
+    let file =
+        OpenOptions::new().create(true).truncate(false).write(true).open(&path).map_err(failed)?;
+    match file.try_lock() {
+        Ok(()) => Ok(file),
+        Err(TryLockError::WouldBlock) => Err(FleetError::InUse { folder: folder.to_owned() }),
+        // A file system without locks: one run at a time is up to the user.
+        Err(TryLockError::Error(error)) if error.kind() == std::io::ErrorKind::Unsupported => {
+            Ok(file)
+        }
+        Err(TryLockError::Error(source)) => Err(failed(source)),
+    }
+}
+
+/// Checks that results were made in the same way. The time limit and retries may differ.
+fn same(folder: &Path, then: &FleetSettings, now: &FleetSettings) -> Result<(), FleetError> {
+    let differs = [
+        ("version of lissom", then.version != VERSION),
+        ("campaign", then.campaign != now.campaign),
+        ("effort", then.effort != now.effort || then.refinement != now.refinement),
+        ("choice of whole results", then.keep_results != now.keep_results),
+    ];
+    match differs.into_iter().find(|(_, differs)| *differs) {
+        Some((what, _)) => Err(FleetError::OtherSettings { folder: folder.to_owned(), what }),
+        None => Ok(()),
+    }
+}
+
+/// Removes what a killed run left: parts that the manifest does not list, and files that were not complete.
+fn remove_others(folder: &Path, manifest: &Manifest) -> Result<(), FleetError> {
+    let failed = |source| FleetError::Read { path: folder.to_owned(), source };
+    let kept: HashSet<&str> = manifest.parts.iter().map(|part| part.file.as_str()).collect();
+    for entry in fs::read_dir(folder).map_err(failed)? {
+        let entry = entry.map_err(failed)?;
+        let name = entry.file_name().to_string_lossy().into_owned();
+        let is_part = number(&name).is_some() && !kept.contains(name.as_str());
+        let is_incomplete =
+            name.starts_with('.') && Path::new(&name).extension().is_some_and(|end| end == "part");
+        if is_part || is_incomplete {
+            lissom_io::write::remove(&entry.path())?;
+        }
+    }
+    Ok(())
+}
+
+/// The number in the name of a part.
+fn number(file: &str) -> Option<u64> {
+    file.strip_prefix(PART.0)?.strip_suffix(PART.1)?.parse().ok()
+}

@@ -1,0 +1,104 @@
+//! The columns of a part: a row for each log.
+
+use std::collections::HashMap;
+
+use crate::row::{FleetRow, RowOutcome, RowResult};
+
+/// Column of the logs' names.
+pub(crate) const LOG: &str = "log";
+/// Column of the machines' names.
+pub(crate) const MACHINE: &str = "machine";
+/// Column of the times.
+pub(crate) const TIME: &str = "time";
+/// Suffix of a standard error's column.
+pub(crate) const STD: &str = ".std";
+
+/// Values of a column; a missing one is none.
+#[derive(Debug, Clone, PartialEq)]
+pub enum Values {
+    /// Texts.
+    Text(Vec<Option<String>>),
+    /// Numbers.
+    Number(Vec<Option<f64>>),
+    /// Microseconds since 1970 UTC.
+    Time(Vec<Option<i64>>),
+}
+
+impl Values {
+    /// Number of rows.
+    pub fn len(&self) -> usize {
+        match self {
+            Self::Text(values) => values.len(),
+            Self::Number(values) => values.len(),
+            Self::Time(values) => values.len(),
+        }
+    }
+
+    /// Whether there are no rows.
+    pub fn is_empty(&self) -> bool {
+        self.len() == 0
+    }
+}
+
+/// The columns of rows: names and values, in the order in which they are written.
+pub(super) fn columns(rows: &[FleetRow]) -> Vec<(String, Values)> {
+    let text =
+        |of: &dyn Fn(&FleetRow) -> Option<String>| Values::Text(rows.iter().map(of).collect());
+    let found = |of: &dyn Fn(&RowResult) -> Option<String>| {
+        text(&|row| match &row.outcome {
+            RowOutcome::Identified(found) => of(found),
+            RowOutcome::Failed { .. } => None,
+        })
+    };
+    let failed = |of: &dyn Fn(&str, &str) -> String| {
+        text(&|row| match &row.outcome {
+            RowOutcome::Identified(_) => None,
+            RowOutcome::Failed { failure, message } => Some(of(failure.name(), message)),
+        })
+    };
+    let mut columns = vec![
+        (LOG, text(&|row| Some(row.log.clone()))),
+        (MACHINE, text(&|row| row.machine.clone())),
+        (TIME, Values::Time(rows.iter().map(|row| row.time_us).collect())),
+        ("failure", failed(&|failure, _| failure.to_owned())),
+        ("message", failed(&|_, message| message.to_owned())),
+        ("effort", found(&|found| Some(found.effort.name().to_owned()))),
+        ("refusals", found(&|found| Some(found.refusals.join(" ")))),
+        ("warnings", found(&|found| Some(found.warnings.join(" ")))),
+        ("infos", found(&|found| Some(found.infos.join(" ")))),
+        ("seconds", Values::Number(rows.iter().map(|row| Some(row.seconds)).collect())),
+        ("version", text(&|row| Some(row.version.clone()))),
+        ("input_sha256", text(&|row| row.input_sha256.clone())),
+    ];
+    if rows.iter().any(|row| matches!(&row.outcome, RowOutcome::Identified(f) if f.json.is_some()))
+    {
+        columns.push(("result", found(&|found| found.json.clone())));
+    }
+    let mut columns: Vec<_> = columns.into_iter().map(|(name, v)| (name.to_owned(), v)).collect();
+    columns.extend(estimates(rows));
+    columns
+}
+
+/// Two columns for each estimate that a row has: value and standard error.
+fn estimates(rows: &[FleetRow]) -> Vec<(String, Values)> {
+    let mut keys: Vec<&str> = Vec::new();
+    let mut places: HashMap<&str, usize> = HashMap::new();
+    let mut numbers: Vec<[Vec<Option<f64>>; 2]> = Vec::new();
+    for (k, row) in rows.iter().enumerate() {
+        let RowOutcome::Identified(found) = &row.outcome else { continue };
+        for estimate in &found.estimates {
+            let at = *places.entry(&estimate.key).or_insert_with(|| {
+                keys.push(&estimate.key);
+                numbers.push([vec![None; rows.len()], vec![None; rows.len()]]);
+                keys.len() - 1
+            });
+            let [value, std] = &mut numbers[at];
+            (value[k], std[k]) = estimate.value_std.unzip();
+        }
+    }
+    let named = keys.into_iter().zip(numbers);
+    let pair = |(key, [value, std]): (&str, [Vec<Option<f64>>; 2])| {
+        [(key.to_owned(), Values::Number(value)), (format!("{key}{STD}"), Values::Number(std))]
+    };
+    named.flat_map(pair).collect()
+}

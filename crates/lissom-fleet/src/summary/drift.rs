@@ -1,0 +1,92 @@
+//! Machines whose parameter changes over time, more than that of the others.
+
+use serde::{Deserialize, Serialize};
+
+use super::chances::{discoveries, normal_deviation, tails};
+use super::machines::{LogValue, Machine};
+use super::robust::scale;
+
+/// From so many machines on, the scatter of their slopes says what is normal.
+const MACHINES_LEAST: usize = 20;
+
+/// A parameter of a machine that changes over time. All values are without what all machines do, see
+/// [`ParameterSummary::common_change`](super::ParameterSummary::common_change).
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+pub struct Drift {
+    /// The machine.
+    pub machine: String,
+    /// Its values, in the order of time.
+    pub values: Vec<DriftValue>,
+    /// Value of the line in the middle.
+    pub level: f64,
+    /// Value of the line at the first log.
+    pub first: f64,
+    /// Change from the first log to the last.
+    pub change: f64,
+    /// Its standard error.
+    pub change_std: f64,
+    /// The change over the level; none if the level is zero.
+    pub relative_change: Option<f64>,
+    /// The change over its standard error, and over the spread of this ratio of all machines if that is larger than one.
+    pub z: f64,
+}
+
+/// A value of a machine that drifts.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+pub struct DriftValue {
+    /// The log.
+    pub log: String,
+    /// Its time, in microseconds since 1970 UTC.
+    pub time_us: i64,
+    /// The value, without what all machines do.
+    pub value: f64,
+    /// Its standard error.
+    pub std: f64,
+}
+
+/// Machines that drift, the largest changes first.
+pub(super) fn drifts(machines: &[Machine<'_>], rate: f64) -> Vec<Drift> {
+    let lines: Vec<&Machine<'_>> = machines.iter().filter(|m| m.has_line()).collect();
+    let own = lines.iter().map(|m| {
+        let (change, std) = m.change().unwrap_or((0.0, f64::INFINITY));
+        normal_deviation(change / std, m.variance.1)
+    });
+    let own: Vec<f64> = own.collect();
+    let many = own.len() >= MACHINES_LEAST;
+    let spread = scale(own.iter().copied()).filter(|_| many).unwrap_or(1.0).max(1.0);
+    let compared: Vec<f64> = own.iter().map(|z| z / spread).collect();
+    let chances: Vec<f64> = compared.iter().map(|z| tails(*z)).collect();
+    let chosen = discoveries(&chances, rate);
+    let found = lines.iter().zip(&compared).zip(chosen).filter(|(_, chosen)| *chosen);
+    let mut drifts: Vec<Drift> = found.filter_map(|((machine, z), _)| drift(machine, *z)).collect();
+    let size = |drift: &Drift| drift.relative_change.map_or(f64::INFINITY, f64::abs);
+    drifts.sort_by(|a, b| size(b).total_cmp(&size(a)));
+    drifts
+}
+
+fn drift(machine: &Machine<'_>, z: f64) -> Option<Drift> {
+    let (change, change_std) = machine.change()?;
+    let level = machine.level();
+    let value = |v: &LogValue<'_>| {
+        let (log, time_us) = (v.log.to_owned(), v.time_us?);
+        Some(DriftValue { log, time_us, value: v.value, std: v.std })
+    };
+    let mut values: Vec<DriftValue> = machine.values.iter().filter_map(value).collect();
+    values.sort_by_key(|value| value.time_us);
+    Some(Drift {
+        machine: machine.name?.to_owned(),
+        values,
+        level,
+        first: machine.first(),
+        change,
+        change_std,
+        relative_change: relative(change, level),
+        z,
+    })
+}
+
+fn relative(change: f64, level: f64) -> Option<f64> {
+    Some(change / level.abs()).filter(|ratio| ratio.is_finite())
+}

@@ -1,0 +1,144 @@
+//! Logs that differ from the other logs of their machine, and machines that differ from the others.
+
+use serde::{Deserialize, Serialize};
+
+use super::chances::{discoveries, normal_deviation, tails};
+use super::machines::Machine;
+use super::robust::{center_and_scales, median, scale};
+
+/// Smallest deviation of an outlier, in scales (Iglewicz and Hoaglin, How to Detect and Handle Outliers, 1993).
+const LEAST: f64 = 3.5;
+/// Smallest number of machines, or of logs, that say what is normal.
+const COMPARED_LEAST: usize = 10;
+/// Largest deviation that is told from larger ones: JSON has no infinity.
+const MOST: f64 = 1e6;
+
+/// A log that differs.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+pub struct LogOutlier {
+    /// The log.
+    pub log: String,
+    /// Its machine; if it is known, the log is compared with the other logs of the machine, otherwise with all logs.
+    pub machine: Option<String>,
+    /// Its value, without what all machines do over time.
+    pub value: f64,
+    /// Its standard error.
+    pub std: f64,
+    /// The value that the others let expect.
+    pub expected: f64,
+    /// The deviation, in scales of the others.
+    pub z: f64,
+}
+
+/// A machine that differs.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+pub struct MachineOutlier {
+    /// The machine.
+    pub machine: String,
+    /// Number of its logs.
+    pub logs: usize,
+    /// Its value, in the middle of its logs.
+    pub value: f64,
+    /// Median of all machines.
+    pub expected: f64,
+    /// The deviation, in scales of the machines on this side of the median.
+    pub z: f64,
+}
+
+/// Logs and machines that differ, the largest deviations first. With `rate`, of those found this share is expected to be
+/// chance.
+pub(super) fn outliers(
+    machines: &[Machine<'_>],
+    rate: f64,
+) -> (Vec<LogOutlier>, Vec<MachineOutlier>) {
+    let mut logs = within_machines(machines, rate);
+    let (alone, machines) = between_machines(machines, rate);
+    logs.extend(alone);
+    logs.sort_by(|a, b| b.z.abs().total_cmp(&a.z.abs()));
+    (logs, machines)
+}
+
+/// Which deviations are more than chance, and those in scales of all.
+fn chosen(deviations: &[f64], rate: f64) -> Vec<bool> {
+    let chances: Vec<f64> = deviations.iter().map(|z| tails(*z)).collect();
+    let found = discoveries(&chances, rate).into_iter().zip(deviations);
+    found.map(|(found, z)| found && z.abs() >= LEAST).collect()
+}
+
+/// Logs that differ from the other logs of their machine.
+fn within_machines(machines: &[Machine<'_>], rate: f64) -> Vec<LogOutlier> {
+    let several = machines.iter().filter(|m| m.variance.1 > 1.0 && m.values.len() > 2);
+    let all: Vec<_> = several
+        .flat_map(|machine| {
+            let freedom = machine.variance.1;
+            machine.deviations().map(move |(value, expected, t)| {
+                (machine, value, expected, normal_deviation(t, freedom))
+            })
+        })
+        .collect();
+    // Heavy tails of the logs make the scale larger than one.
+    let scale = scale(all.iter().map(|(.., z)| *z)).unwrap_or(1.0).max(1.0);
+    let deviations: Vec<f64> = all.iter().map(|(.., z)| z / scale).collect();
+    let found = all.iter().zip(&deviations).zip(chosen(&deviations, rate));
+    let found = found.filter(|(_, chosen)| *chosen).map(|((entry, z), _)| {
+        let (machine, value, expected, _) = entry;
+        LogOutlier {
+            log: value.log.to_owned(),
+            machine: machine.name.map(str::to_owned),
+            value: value.value,
+            std: value.std,
+            expected: *expected,
+            z: *z,
+        }
+    });
+    found.collect()
+}
+
+/// Logs of unknown machines, and machines, that differ from the others.
+fn between_machines(machines: &[Machine<'_>], rate: f64) -> (Vec<LogOutlier>, Vec<MachineOutlier>) {
+    let levels: Vec<f64> = machines.iter().map(Machine::level).collect();
+    let Some((center, [below, above])) =
+        center_and_scales(&levels).filter(|_| levels.len() >= COMPARED_LEAST)
+    else {
+        return (Vec::new(), Vec::new());
+    };
+    let own = |m: &Machine<'_>| median(m.values.iter().map(|v| v.std * v.std)).unwrap_or(0.0);
+    let typical = median(machines.iter().map(own)).unwrap_or(0.0);
+    let deviations: Vec<f64> = machines
+        .iter()
+        .zip(&levels)
+        .map(|(machine, level)| {
+            let scale = if *level < center { below } else { above };
+            // An estimate that is less certain than others deviates more by chance.
+            let uncertain = (own(machine) - typical).max(0.0);
+            let z = (level - center) / (scale * scale + uncertain).sqrt();
+            if z.is_nan() { 0.0 } else { z.clamp(-MOST, MOST) }
+        })
+        .collect();
+    let (mut logs, mut differ) = (Vec::new(), Vec::new());
+    let found = machines.iter().zip(&deviations).zip(chosen(&deviations, rate));
+    for ((machine, z), _) in found.filter(|(_, chosen)| *chosen) {
+        match (machine.name, machine.values.first()) {
+            (Some(name), _) => differ.push(MachineOutlier {
+                machine: name.to_owned(),
+                logs: machine.values.len(),
+                value: machine.level(),
+                expected: center,
+                z: *z,
+            }),
+            (None, Some(value)) => logs.push(LogOutlier {
+                log: value.log.to_owned(),
+                machine: None,
+                value: value.value,
+                std: value.std,
+                expected: center,
+                z: *z,
+            }),
+            (None, None) => {}
+        }
+    }
+    differ.sort_by(|a, b| b.z.abs().total_cmp(&a.z.abs()));
+    (logs, differ)
+}

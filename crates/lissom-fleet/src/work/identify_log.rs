@@ -1,0 +1,130 @@
+//! Identifies one log of a fleet.
+
+use std::fs::File;
+use std::io::{self, Read as _};
+use std::panic::{self, AssertUnwindSafe};
+use std::path::Path;
+use std::time::Instant;
+
+use lissom::io::log::LogPath;
+use lissom::io::{CampaignFile, CampaignReader, LogError};
+use lissom::{Found, Identify};
+use sha2::{Digest as _, Sha256};
+
+use crate::effort_name::EffortName;
+use crate::fleet_log::FleetLog;
+use crate::row::{Failure, FleetRow, RowOutcome, RowResult};
+use crate::settings::{FleetSettings, Refinement};
+
+/// Bytes of a file that are read at once.
+const CHUNK: usize = 1 << 16;
+
+/// Identifies a log. Every failure, also a defect of the program, is a row.
+pub(crate) fn identify_log(settings: &FleetSettings, log: &FleetLog) -> FleetRow {
+    let started = Instant::now();
+    let seconds = || started.elapsed().as_secs_f64();
+    let work = || {
+        let digest = sha256(log.path()).ok();
+        (digest, outcome(settings, log, started))
+    };
+    match panic::catch_unwind(AssertUnwindSafe(work)) {
+        Ok((digest, outcome)) => {
+            let mut row = FleetRow::new(log, seconds(), outcome);
+            row.input_sha256 = digest;
+            row
+        }
+        Err(cause) => {
+            let text = cause.downcast_ref::<String>().map(String::as_str);
+            let text = text.or_else(|| cause.downcast_ref::<&str>().copied()).unwrap_or("unknown");
+            let message = format!("defect of lissom: {text}; please report it with this log");
+            FleetRow::failed(log, seconds(), Failure::Internal, message)
+        }
+    }
+}
+
+fn outcome(settings: &FleetSettings, log: &FleetLog, started: Instant) -> RowOutcome {
+    let reader = CampaignReader::of_text(&settings.campaign_name, settings.campaign.clone());
+    let file = match reader.only(log.path()).read() {
+        Ok(file) => file,
+        Err(error) => {
+            let (failure, message) = (kind(&error), with_name(error.to_string(), log));
+            // Hints for files that are missing are about the runs of a campaign.
+            let hint = error.hint().filter(|_| failure != Failure::Missing);
+            return failed(failure, message, hint);
+        }
+    };
+    let first = match identified(settings, &file, settings.effort, started) {
+        Ok(found) => found,
+        Err(error) => return failed(Failure::Input, error.to_string(), error.hint()),
+    };
+    let result = RowResult::of(&first, settings.effort, settings.keep_results);
+    let refinement = settings
+        .refinement
+        .as_ref()
+        .filter(|more| more.effort > settings.effort && is_asked(more, &result));
+    let Some(more) = refinement else { return RowOutcome::Identified(Box::new(result)) };
+    match identified(settings, &file, more.effort, started) {
+        Ok(found) => {
+            let result = RowResult::of(&found, more.effort, settings.keep_results);
+            RowOutcome::Identified(Box::new(result))
+        }
+        Err(error) => failed(Failure::Input, error.to_string(), error.hint()),
+    }
+}
+
+/// Whether a finding asks for more effort.
+fn is_asked(more: &Refinement, result: &RowResult) -> bool {
+    let mut codes = result.refusals.iter().chain(&result.warnings);
+    if more.codes.is_empty() {
+        return codes.next().is_some();
+    }
+    codes.chain(&result.infos).any(|code| more.codes.contains(code))
+}
+
+fn identified(
+    settings: &FleetSettings,
+    file: &CampaignFile,
+    effort: EffortName,
+    started: Instant,
+) -> Result<Found, lissom::Error> {
+    let left = settings.search_limit().saturating_sub(started.elapsed());
+    Ok(Identify::of_file(file).effort(effort.effort()).time_limit(left).run()?)
+}
+
+/// A message that names the log, in place of the file that it is read from.
+fn with_name(message: String, log: &FleetLog) -> String {
+    match &log.file {
+        Some(file) => message.replace(&*file.to_string_lossy(), &log.log),
+        None => message,
+    }
+}
+
+fn failed(failure: Failure, message: String, hint: Option<String>) -> RowOutcome {
+    let message = match hint {
+        Some(hint) => format!("{message}\nhint: {hint}"),
+        None => message,
+    };
+    RowOutcome::Failed { failure, message }
+}
+
+fn kind(error: &lissom_io::Error) -> Failure {
+    match error {
+        lissom_io::Error::Log(LogError::Open { .. }) => Failure::Missing,
+        _ => Failure::Input,
+    }
+}
+
+/// SHA-256 of a file's bytes.
+fn sha256(path: &Path) -> io::Result<String> {
+    let mut file = File::open(LogPath::of(path).file)?;
+    let (mut hash, mut chunk) = (Sha256::new(), vec![0; CHUNK]);
+    loop {
+        match file.read(&mut chunk)? {
+            0 => break,
+            count => hash.update(&chunk[..count]),
+        }
+    }
+    let digit = |half: u8| char::from_digit(half.into(), 16).unwrap_or_default();
+    let digits = hash.finalize().into_iter().flat_map(|byte| [digit(byte >> 4), digit(byte & 15)]);
+    Ok(digits.collect())
+}

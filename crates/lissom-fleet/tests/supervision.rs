@@ -1,0 +1,195 @@
+//! Logs that bring a worker process to its end, or hang; runs that stop and go on. The worker is a script of the shell that
+//! does as the name of a log says.
+#![cfg(unix)]
+#![expect(clippy::unwrap_used, reason = "a test fails by panicking")]
+
+use std::fs;
+use std::num::NonZeroUsize;
+use std::path::Path;
+use std::sync::atomic::{AtomicBool, Ordering};
+use std::time::Instant;
+
+use lissom_fleet::{
+    Failure, FleetError, FleetLog, FleetRun, FleetSettings, LogWorker, Progress, VERSION, Values,
+    WorkerProgram, open, run_here,
+};
+
+/// Answers each log with a row; `kill` in its name ends the process, `hang` lets it wait, `once` ends it the first time.
+const SCRIPT: &str = r#"
+read settings
+echo "{\"ready\":{\"version\":\"VERSION\"}}"
+while read log; do
+    name=$(echo "$log" | sed 's/.*"log":"\([^"]*\)".*/\1/')
+    case "$name" in
+        *kill*) echo "out of memory" >&2; kill -9 $$ ;;
+        *hang*) exec sleep 1000 ;;
+        *once*) if mkdir "FOLDER/once" 2>/dev/null; then kill -9 $$; fi ;;
+    esac
+    echo "{\"row\":{\"log\":\"$name\",\"machine\":null,\"time_us\":null,\"input_sha256\":null,\"seconds\":0.001,\
+\"version\":\"VERSION\",\"outcome\":{\"identified\":{\"effort\":\"quick\",\
+\"estimates\":[{\"key\":\"drive.inertia_kg_m2\",\"value_std\":[2.0,0.1]}],\
+\"refusals\":[],\"warnings\":[],\"infos\":[\"command-noise\"],\"json\":null}}}}"
+done
+"#;
+
+fn worker(folder: &Path, version: &str) -> WorkerProgram {
+    let script =
+        SCRIPT.replace("VERSION", version).replace("FOLDER", &folder.display().to_string());
+    WorkerProgram { program: "/bin/sh".into(), arguments: vec!["-c".into(), script.into()] }
+}
+
+fn settings() -> FleetSettings {
+    FleetSettings { time_limit_s: 2.0, ..FleetSettings::new("campaign.toml", "") }
+}
+
+fn logs<'a>(names: impl IntoIterator<Item = &'a str>) -> Vec<FleetLog> {
+    names.into_iter().map(FleetLog::new).collect()
+}
+
+fn many(count: usize) -> Vec<FleetLog> {
+    (0..count).map(|k| FleetLog::new(format!("log {k}"))).collect()
+}
+
+fn go(folder: &Path, program: &WorkerProgram, logs: Vec<FleetLog>) -> Result<Progress, FleetError> {
+    let run = FleetRun::begin(&folder.join("out"), settings(), logs, true)?;
+    run_here(run, NonZeroUsize::new(2).unwrap(), program, &AtomicBool::new(false), |_| ())
+}
+
+fn names(folder: &Path, column: &str) -> Vec<String> {
+    match open(&folder.join("out")).unwrap().column(column).unwrap() {
+        Some(Values::Text(texts)) => texts.into_iter().map(Option::unwrap_or_default).collect(),
+        _ => Vec::new(),
+    }
+}
+
+/// That each log has one row.
+fn one_row_each(folder: &Path, logs: &[FleetLog]) {
+    let mut found = names(folder, "log");
+    found.sort();
+    let mut wanted: Vec<String> = logs.iter().map(|log| log.log.clone()).collect();
+    wanted.sort();
+    assert_eq!(found, wanted);
+}
+
+#[test]
+fn a_log_that_kills_or_hangs_is_a_row_and_the_others_go_on() {
+    let folder = tempfile::tempdir().unwrap();
+    let program = worker(folder.path(), VERSION);
+    let logs = logs(["a", "kill", "b", "hang", "c", "once", "d"]);
+    let mut work = LogWorker::new(settings(), program).unwrap();
+    let stop = AtomicBool::new(false);
+    let rows: Vec<_> = logs.iter().map(|log| work.row(log, &stop).unwrap()).collect();
+    let failures: Vec<_> = rows.iter().filter_map(|row| Some((&row.log, row.failure()?))).collect();
+    let [(first, (killed, message)), (second, (hung, _))] = failures[..] else {
+        panic!("{failures:?}")
+    };
+    assert_eq!((first.as_str(), killed), ("kill", Failure::ProcessEnded));
+    assert_eq!((second.as_str(), hung), ("hang", Failure::TimeLimit));
+    assert!(message.contains("3 times") && message.contains("out of memory"), "{message}");
+}
+
+#[test]
+fn rows_are_kept_and_not_doubled_when_a_run_stops() {
+    let folder = tempfile::tempdir().unwrap();
+    let program = worker(folder.path(), VERSION);
+    let logs = many(300);
+    let stop = AtomicBool::new(false);
+    let run = FleetRun::begin(&folder.path().join("out"), settings(), logs.clone(), true).unwrap();
+    let two = NonZeroUsize::new(2).unwrap();
+    let stopped = run_here(run, two, &program, &stop, |progress| {
+        stop.store(progress.done > 20, Ordering::Relaxed);
+    });
+    assert!(matches!(stopped, Err(FleetError::Stopped)));
+    let before = names(folder.path(), "log").len();
+    assert!((20..300).contains(&before), "{before}");
+    let progress = go(folder.path(), &program, logs.clone()).unwrap();
+    assert_eq!((progress.before, progress.done), (before, 300 - before));
+    one_row_each(folder.path(), &logs);
+}
+
+#[test]
+fn a_killed_run_loses_at_most_what_the_manifest_does_not_list() {
+    let folder = tempfile::tempdir().unwrap();
+    let (out, logs) = (folder.path().join("out"), many(40));
+    let mut run = FleetRun::begin(&out, settings(), logs.clone(), true).unwrap();
+    let stop = AtomicBool::new(false);
+    let mut work = LogWorker::new(settings(), worker(folder.path(), VERSION)).unwrap();
+    let [first, second] = [(); 2].map(|()| {
+        let batch = run.next_batch(1).unwrap();
+        work.rows(&batch, &stop).unwrap()
+    });
+    run.take(&first).unwrap();
+    run.take(&second).unwrap();
+    assert!(matches!(run.take(&second), Err(FleetError::NoBatch { .. })), "rows are taken once");
+    // As after a kill: a part is there that the manifest does not list yet, and a file that is not complete.
+    assert!(out.join("part-000002.parquet").exists());
+    assert!(open(&out).unwrap().rows() < first.rows.len() + second.rows.len());
+    fs::write(out.join(".part-000003.parquet.1-1.part"), "PAR1").unwrap();
+    drop(run);
+    go(folder.path(), &worker(folder.path(), VERSION), logs.clone()).unwrap();
+    one_row_each(folder.path(), &logs);
+    let files = fs::read_dir(&out).unwrap().map(|e| e.unwrap().file_name());
+    let parts = files.filter(|name| name.to_string_lossy().contains("part-")).count();
+    assert_eq!(parts, open(&out).unwrap().manifest().parts.len());
+}
+
+#[test]
+fn a_folder_that_cannot_be_written_stops_the_run_and_loses_no_row() {
+    let folder = tempfile::tempdir().unwrap();
+    let program = worker(folder.path(), VERSION);
+    let (out, aside, logs) = (folder.path().join("out"), folder.path().join("aside"), many(200));
+    let run = FleetRun::begin(&out, settings(), logs.clone(), true).unwrap();
+    let mut gone = false;
+    let stopped = run_here(run, NonZeroUsize::MIN, &program, &AtomicBool::new(false), |progress| {
+        if progress.done > 20 && !gone {
+            fs::rename(&out, &aside).unwrap();
+            gone = true;
+        }
+    });
+    assert!(matches!(stopped, Err(FleetError::Write(_))), "{stopped:?}");
+    fs::rename(&aside, &out).unwrap();
+    go(folder.path(), &program, logs.clone()).unwrap();
+    one_row_each(folder.path(), &logs);
+}
+
+#[test]
+fn workers_of_another_version_are_refused() {
+    let folder = tempfile::tempdir().unwrap();
+    let error = go(folder.path(), &worker(folder.path(), "0.0.9"), many(3)).unwrap_err();
+    assert!(error.to_string().contains("has version 0.0.9 of lissom"), "{error}");
+    let other = FleetSettings { version: "9.9.9".to_owned(), ..settings() };
+    assert!(LogWorker::new(other, worker(folder.path(), VERSION)).is_err());
+}
+
+#[test]
+fn a_folder_belongs_to_one_run_and_one_campaign() {
+    let folder = tempfile::tempdir().unwrap();
+    let out = folder.path().join("out");
+    let begin =
+        |settings: FleetSettings, resume: bool| FleetRun::begin(&out, settings, many(2), resume);
+    let run = begin(settings(), true).unwrap();
+    assert!(matches!(begin(settings(), true), Err(FleetError::InUse { .. })));
+    drop(run);
+    let other = FleetSettings { campaign: "[signals]".to_owned(), ..settings() };
+    let error = begin(other, true).unwrap_err();
+    assert!(error.to_string().ends_with("it has results with another campaign"), "{error}");
+    assert!(matches!(begin(settings(), false), Err(FleetError::NotEmpty { .. })));
+    let limit = FleetSettings { time_limit_s: 0.0, ..settings() };
+    assert!(matches!(begin(limit, true), Err(FleetError::Setting { .. })));
+    assert!(matches!(open(folder.path()), Err(FleetError::NoFleet { .. })));
+    fs::write(out.join("manifest.json"), "{").unwrap();
+    assert!(matches!(open(&out), Err(FleetError::Damaged { .. })));
+}
+
+#[test]
+fn a_program_that_is_no_worker_is_an_error() {
+    let folder = tempfile::tempdir().unwrap();
+    let started = Instant::now();
+    for (program, arguments) in [("/no/such/program", vec![]), ("/bin/sh", vec!["-c", "exit 3"])] {
+        let arguments = arguments.into_iter().map(Into::into).collect();
+        let program = WorkerProgram { program: program.into(), arguments };
+        let error = go(folder.path(), &program, many(3)).unwrap_err();
+        assert!(error.to_string().contains("cannot be started"), "{error}");
+    }
+    assert!(started.elapsed().as_secs() < 30);
+}

@@ -1,0 +1,213 @@
+"""The logs of a fleet: files, addresses, tables in memory, or a table of logs."""
+
+from __future__ import annotations
+
+import glob
+import json
+import os
+from collections.abc import Iterable, Mapping, Sequence
+from datetime import datetime, timezone
+from typing import Any
+
+import numpy as np
+
+from . import _lissom
+from ._errors import FileError, InputError, LissomError
+from ._tables import Log, _array, _is_missing, _kind, _series, is_path, path_text
+
+#: Stands between the protocol and the rest of an address.
+_PROTOCOL = "://"
+#: Characters that make a path a pattern of paths.
+_GLOB = "*?["
+#: Columns of a table of logs.
+_LOG, _MACHINE, _TIME = "log", "machine", "time"
+
+
+class FleetLogs:
+    """Logs with their machines and times, and those that are tables in memory.
+
+    Parameters
+    ----------
+    entries : list of dict
+        Name, file, machine and time of each log.
+    tables : mapping of str to Log
+        The logs in memory, by name.
+    """
+
+    def __init__(self, entries: list[dict[str, Any]], tables: Mapping[str, Log]) -> None:
+        self.entries = entries
+        self.tables = tables
+
+    @classmethod
+    def of(cls, logs: Any, pattern: str | None, except_: Sequence[str], options: Mapping[str, Any]) -> FleetLogs:
+        """List the logs.
+
+        Parameters
+        ----------
+        logs : path, table or iterable
+            What the user gave.
+        pattern : str or None
+            What the end of a name says, as ``"{machine}/{time}.csv"``.
+        except_ : sequence of str
+            Paths that are no logs.
+        options : mapping
+            Options of the file system for addresses.
+
+        Returns
+        -------
+        FleetLogs
+            The logs.
+        """
+        tables: dict[str, Log] = {}
+        if _is_table_of_logs(logs):
+            entries = _of_table(logs)
+        elif isinstance(logs, Mapping):
+            tables = {str(name): log for name, log in logs.items() if not is_path(log)}
+            entries = [_entry(str(name), path_text(log) if is_path(log) else None) for name, log in logs.items()]
+        else:
+            entries = []
+            for log in [logs] if is_path(logs) else _items(logs):
+                if is_path(log):
+                    entries += _of_path(path_text(log), except_, options)
+                else:
+                    name = f"log {len(entries) + 1}"
+                    tables[name] = log
+                    entries.append(_entry(name))
+        if pattern is not None:
+            entries = json.loads(_lissom.fleet_pattern(json.dumps(entries), pattern))
+        if not entries:
+            raise InputError("there are no logs", "give a folder, an address, or a list of logs")
+        return cls(entries, tables)
+
+
+def is_address(name: str) -> bool:
+    """Whether a log is not a file of this machine.
+
+    Parameters
+    ----------
+    name : str
+        Its name.
+
+    Returns
+    -------
+    bool
+        Whether it is an address, as ``s3://bucket/log.csv``.
+    """
+    return _PROTOCOL in name
+
+
+def file_system(address: str, options: Mapping[str, Any]) -> tuple[Any, str]:
+    """Give the file system of an address, and the path in it.
+
+    Parameters
+    ----------
+    address : str
+        The address.
+    options : mapping
+        Options of the file system.
+
+    Returns
+    -------
+    tuple
+        A file system of fsspec, and a path.
+    """
+    try:
+        import fsspec  # type: ignore[import-untyped,unused-ignore]
+    except ImportError:
+        raise LissomError(f"{address} is read with fsspec, which is not installed", "pip install fsspec") from None
+    try:
+        system, path = fsspec.core.url_to_fs(address, **options)
+    except (ImportError, ValueError) as error:
+        raise LissomError(f"{address}: {error}", "check the protocol, and install its package: s3fs for s3://") from error
+    return system, path
+
+
+def _items(logs: Any) -> Iterable[Any]:
+    if not isinstance(logs, Iterable) or hasattr(logs, "__arrow_c_stream__") or isinstance(logs, np.ndarray):
+        raise InputError(
+            "logs is a path, a list of logs, a mapping of names to logs, or a table with a column `log`",
+            "give one log as a list: [log]",
+        )
+    return logs
+
+
+def _entry(name: str, file: str | None = None) -> dict[str, Any]:
+    return {"log": name, "file": file, "machine": None, "time_us": None}
+
+
+def _of_path(path: str, except_: Sequence[str], options: Mapping[str, Any]) -> list[dict[str, Any]]:
+    if is_address(path):
+        return [_entry(address) for address in _of_address(path, options)]
+    if any(character in path for character in _GLOB) and not os.path.exists(path):
+        found = sorted(glob.glob(path, recursive=True))
+        if not found:
+            raise FileError(f"{path}: no file has this form", "check the folder")
+        files = [file for file in found if os.path.isfile(file)]
+        return list(json.loads(_lissom.fleet_logs(files, list(except_)))) if files else []
+    if not os.path.exists(path) and "::" not in path:
+        raise FileError(f"{path}: there is no such file or folder", "check the name")
+    return list(json.loads(_lissom.fleet_logs([path], list(except_))))
+
+
+def _of_address(address: str, options: Mapping[str, Any]) -> list[str]:
+    system, path = file_system(address, options)
+    try:
+        if any(character in path for character in _GLOB):
+            found = [file for file, kind in system.glob(path, detail=True).items() if kind["type"] == "file"]
+        else:
+            found = list(system.find(path))
+    except Exception as error:
+        raise FileError(
+            f"{address}: {error or type(error).__name__}", "check the address, the network and your rights"
+        ) from error
+    if not found:
+        raise FileError(f"{address}: there are no logs", "check the address")
+    return [str(system.unstrip_protocol(file)) for file in sorted(found)]
+
+
+def _is_table_of_logs(logs: Any) -> bool:
+    if isinstance(logs, Mapping):
+        return _LOG in logs and not is_path(logs[_LOG]) and not isinstance(logs[_LOG], Mapping)
+    names = getattr(logs, "columns", None) if hasattr(logs, "__arrow_c_stream__") or hasattr(logs, "iloc") else None
+    return names is not None and _LOG in list(names)
+
+
+def _of_table(table: Any) -> list[dict[str, Any]]:
+    columns = dict(_series(table, "table of logs"))
+    names = [None if _is_missing(name) else name for name in _array(columns[_LOG])]
+    rows = len(names)
+    machines = _column(columns.get(_MACHINE), rows, _MACHINE)
+    times = _column(columns.get(_TIME), rows, _TIME)
+    entries = []
+    for row, (name, machine, time) in enumerate(zip(names, machines, times, strict=True), start=1):
+        if name is None or not is_path(name):
+            raise InputError(f"table of logs, row {row}: {name!r} is no path", "give paths in the column `log`")
+        entry = _entry(path_text(name))
+        entry["machine"] = None if machine is None else str(machine)
+        entry["time_us"] = None if time is None else _microseconds(time, row)
+        entries.append(entry)
+    return entries
+
+
+def _column(values: Any, rows: int, name: str) -> list[Any]:
+    if values is None:
+        return [None] * rows
+    array = _array(values)
+    if _kind(array) == "M":
+        array = array.astype("datetime64[us]")
+    column = [None if _is_missing(value) else value for value in array]
+    if len(column) != rows:
+        raise InputError(f"table of logs: `{name}` has {len(column)} rows, and `{_LOG}` {rows}")
+    return column
+
+
+def _microseconds(time: Any, row: int) -> int:
+    if isinstance(time, np.datetime64):
+        return int(time.astype("datetime64[us]").astype(np.int64))
+    if isinstance(time, datetime):
+        zoned = time if time.tzinfo is not None else time.replace(tzinfo=timezone.utc)
+        return round(zoned.timestamp() * 1e6)
+    found = _lissom.fleet_time(str(time))
+    if found is None:
+        raise InputError(f"table of logs, row {row}: {time!r} is not a time", "give dates, or texts as 2026-11-27T08:15:00Z")
+    return found
