@@ -19,7 +19,8 @@ pub(crate) fn table(columns: &[(String, Column<'_>)]) -> LogData {
     for (name, column) in columns {
         log = match column {
             Column::Numbers(array) => {
-                let values = array.as_array().iter().copied().collect();
+                let values =
+                    array.as_slice().map_or_else(|_| array.as_array().to_vec(), <[f64]>::to_vec);
                 log.with_column(name.as_str(), values)
             }
             Column::Words(words) => log.with_words(name.as_str(), words.iter().map(String::as_str)),

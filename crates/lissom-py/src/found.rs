@@ -1,4 +1,4 @@
-//! What an identification found, with the logs that it is from: the report page and the figures.
+//! What an identification found, with the logs that it is from: parameters, result.json, the report page and the figures.
 
 use std::path::Path;
 use std::sync::Arc;
@@ -8,8 +8,10 @@ use lissom::{Found, Payloads, predict_payload};
 use lissom_views::known_arm::checked;
 use lissom_views::{ProgramHints, Reference, report_page, result_figures};
 use pyo3::prelude::*;
+use pyo3::types::PyBytes;
 
 use crate::errors::{input_error, raised};
+use crate::reading_results::{Row, rows};
 
 /// An identification with its logs: immutable.
 #[pyclass(frozen, name = "Found", module = "lissom._lissom")]
@@ -20,6 +22,18 @@ pub(crate) struct NativeFound {
 
 #[pymethods]
 impl NativeFound {
+    /// The parameters, in the order of the tables.
+    fn parameters(&self, py: Python<'_>) -> Vec<Row> {
+        rows(py.detach(|| self.found.parameters()))
+    }
+
+    /// The bytes of the result.json, the same as the command writes.
+    fn data<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyBytes>> {
+        let text = py.detach(|| write::json_text(Path::new("result"), &self.found.file()));
+        let text = text.map_err(|error| raised(py, error))?;
+        Ok(PyBytes::new(py, text.as_bytes()))
+    }
+
     /// The report page as HTML, as the command writes it, but without hints about options of the command.
     fn report(&self, py: Python<'_>, title: &str) -> PyResult<String> {
         let reference = self.reference(py)?;

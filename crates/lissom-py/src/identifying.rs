@@ -1,19 +1,18 @@
 //! Identification of a campaign.
 
-use std::path::Path;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicUsize, Ordering};
 use std::time::Duration;
 
 use lissom::Identify;
 use lissom::identify::{Effort, Interrupt, Stage};
-use lissom::io::{CampaignFile, write};
+use lissom::io::CampaignFile;
 use pyo3::prelude::*;
 
 use crate::campaign::NativeCampaign;
 use crate::errors::input_error;
 use crate::found::NativeFound;
-use crate::worker::{self, Done, Ended, Outcome};
+use crate::worker::{self, Ended, Outcome};
 
 /// Names of the stages in progress, with the share of all work before each. The search takes most of the time.
 const STAGES: [(&str, f64); 5] = [
@@ -46,10 +45,9 @@ fn index(stage: Stage) -> usize {
 }
 
 /// A result, or the exception that stopped the work with what ends later.
-type Identified<'py> = (Option<Done<'py>>, Option<(PyErr, worker::Pending)>);
+type Identified = (Option<NativeFound>, Option<(PyErr, worker::Pending)>);
 
-/// Identifies a campaign: the bytes of its result.json with what was found, and nothing; or, if it was stopped, the exception
-/// and what ends later.
+/// Identifies a campaign: what was found, and nothing; or, if it was stopped, the exception and what ends later.
 #[pyfunction]
 #[pyo3(signature = (campaign, effort, window_s=None, time_limit_s=None, threads=None, progress=None))]
 pub(crate) fn identify<'py>(
@@ -60,7 +58,7 @@ pub(crate) fn identify<'py>(
     time_limit_s: Option<f64>,
     threads: Option<usize>,
     progress: Option<Bound<'py, PyAny>>,
-) -> PyResult<Identified<'py>> {
+) -> PyResult<Identified> {
     let Some(effort) = effort_of(effort) else {
         let message = format!("effort is \"{effort}\", and not quick, normal or thorough");
         return Err(input_error(py, &message, None));
@@ -100,7 +98,7 @@ pub(crate) fn identify<'py>(
     }
 }
 
-/// The text of the result, the same as the command writes, and what was found.
+/// What the campaign gives.
 fn identified(
     file: Arc<CampaignFile>,
     effort: Effort,
@@ -117,8 +115,7 @@ fn identified(
     if let Some(arm) = file.described_arm()? {
         found = found.compared_with(&arm);
     }
-    let text = write::json_text(Path::new("result"), &found.file())?;
-    Ok((text, NativeFound::new(file, found)))
+    Ok(NativeFound::new(file, found))
 }
 
 /// Runs work with so many threads; with all of the machine if the number is not given or they cannot be had.

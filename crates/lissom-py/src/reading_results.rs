@@ -1,6 +1,6 @@
 //! A `result.json` as a list of parameters and as text.
 
-use lissom::io::{ParameterList, ResultFile};
+use lissom::io::{ListedParameter, ParameterList, ResultFile};
 use pyo3::prelude::*;
 
 use crate::errors::raised;
@@ -10,7 +10,7 @@ const RESULT: &str = "result";
 
 /// A parameter: key, name, unit, value with standard error and 95 % interval or nothing if it is refused, and the codes of
 /// the warnings that affect it.
-type Row = (String, String, String, Option<(f64, f64, [f64; 2])>, Vec<String>);
+pub(crate) type Row = (String, String, String, Option<(f64, f64, [f64; 2])>, Vec<String>);
 
 /// The parameters of a result, in the order of the tables.
 #[pyfunction]
@@ -19,11 +19,16 @@ pub(crate) fn parameters(py: Python<'_>, result: &str) -> PyResult<Vec<Row>> {
     let list = ParameterList::of_text(RESULT, result).map_err(fail)?;
     // Every table is one of this version.
     ResultFile::of_text(RESULT, result).map_err(fail)?;
-    let row = |p: lissom::io::ListedParameter| {
+    Ok(rows(list.parameters))
+}
+
+/// Parameters as rows.
+pub(crate) fn rows(parameters: Vec<ListedParameter>) -> Vec<Row> {
+    let row = |p: ListedParameter| {
         let estimate = p.estimate.map(|e| (e.value, e.std, e.ci95));
         (p.key, p.name, p.unit, estimate, p.warnings)
     };
-    Ok(list.parameters.into_iter().map(row).collect())
+    parameters.into_iter().map(row).collect()
 }
 
 /// The result as a table with its findings.

@@ -7,7 +7,6 @@ use std::time::Duration;
 
 use lissom::identify::Interrupt;
 use pyo3::prelude::*;
-use pyo3::types::PyBytes;
 
 use crate::errors::{internal_error, raised};
 use crate::found::NativeFound;
@@ -15,11 +14,8 @@ use crate::found::NativeFound;
 /// Time between two looks at signals.
 const TICK: Duration = Duration::from_millis(50);
 
-/// What the work gives: the text of a `result.json`, and what was found.
-pub(crate) type Outcome = Result<(String, NativeFound), lissom::Error>;
-
-/// The bytes of a `result.json`, and what was found.
-pub(crate) type Done<'py> = (Bound<'py, PyBytes>, NativeFound);
+/// What the work gives.
+pub(crate) type Outcome = Result<NativeFound, lissom::Error>;
 
 /// Work that was interrupted and ends soon with its best result so far.
 #[pyclass(frozen, module = "lissom._lissom")]
@@ -29,18 +25,18 @@ pub(crate) struct Pending {
 
 #[pymethods]
 impl Pending {
-    /// Waits for the best result so far: the bytes of a result.json, and what was found. Call it once.
-    fn wait<'py>(&self, py: Python<'py>) -> PyResult<Done<'py>> {
+    /// Waits for the best result so far. Call it once.
+    fn wait(&self, py: Python<'_>) -> PyResult<NativeFound> {
         let outcome =
             py.detach(|| self.outcome.lock().unwrap_or_else(PoisonError::into_inner).recv());
-        done(py, outcome.map_err(|_| internal_error())?)
+        outcome.map_err(|_| internal_error())?.map_err(|error| raised(py, error))
     }
 }
 
 /// How work ended: with a result, or by Ctrl-C or an error of the function that shows progress.
-pub(crate) enum Ended<'py> {
+pub(crate) enum Ended {
     /// With a result.
-    Done(Done<'py>),
+    Done(NativeFound),
     /// By an exception; the best result so far follows.
     Stopped(PyErr, Pending),
 }
@@ -81,11 +77,11 @@ pub(crate) fn run<'py>(
     interrupt: &Interrupt,
     work: impl FnOnce() -> Outcome + Send + 'static,
     show: impl Fn(Python<'py>) -> PyResult<()>,
-) -> PyResult<Ended<'py>> {
+) -> PyResult<Ended> {
     let outcome = started(work);
     loop {
         match next(py, &outcome) {
-            Ok(found) => return done(py, found).map(Ended::Done),
+            Ok(found) => return found.map(Ended::Done).map_err(|error| raised(py, error)),
             Err(RecvTimeoutError::Disconnected) => return Err(internal_error()),
             Err(RecvTimeoutError::Timeout) => {
                 if let Err(error) = py.check_signals().and_then(|()| show(py)) {
@@ -95,9 +91,4 @@ pub(crate) fn run<'py>(
             }
         }
     }
-}
-
-fn done(py: Python<'_>, outcome: Outcome) -> PyResult<Done<'_>> {
-    let (text, found) = outcome.map_err(|error| raised(py, error))?;
-    Ok((PyBytes::new(py, text.as_bytes()), found))
 }

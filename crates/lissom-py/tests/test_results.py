@@ -33,6 +33,8 @@ def test_a_result_is_its_bytes(result: lissom.Result, tmp_path: Path) -> None:
     result.save(tmp_path / "result.json")
     assert lissom.Result.load(tmp_path / "result.json") == result
     assert result.to_dict() == json.loads(bytes(result))
+    # A fresh result takes its parameters directly, a read one from its bytes.
+    assert copied.to_frame().equals(result.to_frame())
     with pytest.raises(TypeError):
         result.friction["coulomb_nm"] = None  # type: ignore[index]
     with pytest.raises(ValueError, match="read-only"):

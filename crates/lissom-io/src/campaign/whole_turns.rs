@@ -10,6 +10,9 @@ const LIKE_OTHER_STEPS: f64 = 1.5;
 /// A jump is removed if the step without the turn is like the other steps, and these are less than a quarter of a turn.
 pub(super) fn remove_turns(angle: &mut [f64]) -> usize {
     let steps = angle.windows(2).map(|pair| (pair[1] - pair[0]).abs());
+    if !steps.clone().any(|step| step > PI) {
+        return 0;
+    }
     let largest = steps.filter(|step| *step <= PI).fold(0.0, f64::max);
     if largest > FRAC_PI_2 {
         return 0;

@@ -61,6 +61,21 @@ pub struct Log {
     pub repeated: usize,
 }
 
+impl Log {
+    /// Columns of the same length that are not thinned and have no repeated rows; time is first if there is one.
+    pub(super) fn complete(has_time: bool, columns: &[&[f64]]) -> Self {
+        let mut columns = columns.iter().map(|column| column.to_vec());
+        Self {
+            time: if has_time { columns.next() } else { None },
+            columns: columns.collect(),
+            factor: 1,
+            time_step: 0.0,
+            time_back: Vec::new(),
+            repeated: 0,
+        }
+    }
+}
+
 /// A stamp that is earlier than the one above it.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct TimeBack {

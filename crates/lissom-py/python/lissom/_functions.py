@@ -95,7 +95,7 @@ def identify(
         if isinstance(error, KeyboardInterrupt):
             raise Interrupted(pending) from None
         raise error
-    result = Result._of(*cast("tuple[bytes, _lissom.Found]", done))
+    result = Result._of(cast("_lissom.Found", done))
     missing = refused(result, require)
     if missing:
         affecting = tuple(f for f in result.findings if f.severity == "refusal")

@@ -31,7 +31,7 @@ class Interrupted(KeyboardInterrupt):
         """The best result so far. Waits until the work has ended, which takes about a second."""
         with self._lock:
             if self._pending is not None:
-                self._result = Result._of(*self._pending.wait())
+                self._result = Result._of(self._pending.wait())
                 self._pending = None
             return self._result
 

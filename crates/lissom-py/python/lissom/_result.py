@@ -14,6 +14,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from . import _lissom
+from ._content import Content
 from ._errors import FileError, InputError
 from ._estimate import Estimate
 from ._files import write_whole
@@ -46,25 +47,13 @@ class Result:
     def __init__(self, data: bytes) -> None:
         if isinstance(data, (str, int)):
             raise InputError("a Result is made of bytes", "read a file with Result.load")
-        self._data = bytes(data)
-        try:
-            self._root: dict[str, Any] = json.loads(self._data.decode("utf-8-sig"))
-        except (ValueError, RecursionError) as error:
-            raise InputError(f"the data are no result: {error}") from None
-        # Says what is missing if the JSON is of something else.
-        rows = _lissom.parameters(self._text)
-        self._listed = {
-            key: None if found is None else Estimate(found[0], found[1], (found[2][0], found[2][1]), unit)
-            for key, _, unit, found, _ in rows
-        }
-        self._rows = rows
-        self._found: _lissom.Found | None = None
+        self._content = Content.read(bytes(data))
 
     @classmethod
-    def _of(cls, data: bytes, found: _lissom.Found) -> Result:
-        """Make a result with the logs that it is from."""
-        result = cls(data)
-        result._found = found
+    def _of(cls, found: _lissom.Found) -> Result:
+        """Make a result of what was found, with the logs that it is from."""
+        result = cls.__new__(cls)
+        result._content = Content(found)
         return result
 
     @classmethod
@@ -99,7 +88,7 @@ class Result:
         path : path
             The file; one that exists is replaced.
         """
-        write_whole(path, self._data)
+        write_whole(path, self._content.data)
 
     def report(self, path: Path) -> None:
         """Write the report page: parameters, figures, tables and findings as one HTML file, whole or not at all.
@@ -114,10 +103,10 @@ class Result:
         InputError
             If the result was read from a file or unpickled: only `identify` gives a result with its logs.
         """
-        if self._found is None:
+        if self._content.found is None:
             message = "the report page needs the logs of the result"
             raise InputError(message, NO_LOGS)
-        write_whole(path, self._found.report(FilePath(path).stem).encode(errors="replace"))
+        write_whole(path, self._content.found.report(FilePath(path).stem).encode(errors="replace"))
 
     def payload(self, mass: float, to: Sequence[float], *, at: float | None = None, tip: str | None = None) -> pd.DataFrame:
         """Predict the arm with other payloads at the same point.
@@ -148,12 +137,12 @@ class Result:
         """
         import pandas as pd
 
-        if self._found is None:
+        if self._content.found is None:
             raise InputError("this result has no logs", NO_LOGS)
         masses = [float(mass), *(float(other) for other in to)]
         if not all(0 <= one < float("inf") for one in masses):
             raise InputError(f"masses are {masses} kg; they must not be negative")
-        text = self._found.payload(masses[0], masses[1:], at, tip)
+        text = self._content.found.payload(masses[0], masses[1:], at, tip)
         content = json.loads(text)
         rows = []
         for payload in content["payloads"]:
@@ -189,24 +178,24 @@ class Result:
     @property
     def modes(self) -> tuple[Mapping[str, Estimate | None], ...]:
         """Modes with the motor clamped, ascending: ``natural_frequency_rad_s``, ``damping_ratio``."""
-        modes = self._root["beam"]["modes"]
+        modes = self._content.root["beam"]["modes"]
         return tuple(MappingProxyType(_estimates(mode)) for mode in modes)
 
     @functools.cached_property
     def findings(self) -> tuple[Finding, ...]:
         """What the logs do not determine, and what to know about the estimates."""
-        return tuple(Finding._of(entry) for entry in self._root["findings"])
+        return tuple(Finding._of(entry) for entry in self._content.root["findings"])
 
     @property
     def method(self) -> str | None:
         """The method that gave friction, inertia and coupling, all of them together."""
-        found: str | None = self._root["from"]
+        found: str | None = self._content.root["from"]
         return found
 
     @functools.cached_property
     def frequency(self) -> NDArray[np.float64]:
         """Frequencies of the responses [rad/s], shape (n,)."""
-        omega: NDArray[np.float64] = np.asarray(self._root["frequency_response"]["omega_rad_s"], dtype=np.float64)
+        omega: NDArray[np.float64] = np.asarray(self._content.root["frequency_response"]["omega_rad_s"], dtype=np.float64)
         return _fixed(omega)
 
     @functools.cached_property
@@ -231,7 +220,7 @@ class Result:
     @functools.cached_property
     def response_vouched_for(self) -> NDArray[np.bool_]:
         """Whether a response at a frequency is corrected with confidence, shape (n,)."""
-        vouched: NDArray[np.bool_] = _fixed(np.asarray(self._root["frequency_response"]["vouched_for"], dtype=np.bool_))
+        vouched: NDArray[np.bool_] = _fixed(np.asarray(self._content.root["frequency_response"]["vouched_for"], dtype=np.bool_))
         return vouched
 
     @property
@@ -259,7 +248,7 @@ class Result:
         InputError
             If an estimate is refused, or the method has no covariance of it.
         """
-        known = (self._root["verdict"] or {"correlation": {"keys": [], "matrix": []}})["correlation"]
+        known = (self._content.root["verdict"] or {"correlation": {"keys": [], "matrix": []}})["correlation"]
         places = {
             key: place
             for place, key in enumerate(known["keys"])
@@ -296,7 +285,7 @@ class Result:
         tuple of str
             Codes of findings.
         """
-        for row in self._rows:
+        for row in self._content.rows:
             if row[0] == key:
                 return tuple(row[4])
         raise KeyError(self._no_key(key))
@@ -309,12 +298,12 @@ class Result:
         tuple of str
             Keys, as ``friction.coulomb_nm``.
         """
-        return tuple(self._listed)
+        return tuple(self._content.listed)
 
     def __getitem__(self, key: str) -> Estimate | None:
-        if key in self._listed:
-            return self._listed[key]
-        value: Any = self._root
+        if key in self._content.listed:
+            return self._content.listed[key]
+        value: Any = self._content.root
         if not isinstance(key, str):
             raise KeyError(key)
         for part in key.replace("[", ".").replace("]", "").split("."):
@@ -329,13 +318,13 @@ class Result:
         return Estimate._of(value, unit_of(key))
 
     def __iter__(self) -> Any:
-        return iter(self._listed)
+        return iter(self._content.listed)
 
     def __contains__(self, key: object) -> bool:
-        return key in self._listed
+        return key in self._content.listed
 
     def __len__(self) -> int:
-        return len(self._listed)
+        return len(self._content.listed)
 
     def to_dict(self) -> dict[str, Any]:
         """Give the content of result.json.
@@ -345,7 +334,7 @@ class Result:
         dict
             A new one for each call.
         """
-        content: dict[str, Any] = json.loads(self._data)
+        content: dict[str, Any] = json.loads(self._content.data)
         return content
 
     def to_frame(self) -> pd.DataFrame:
@@ -359,7 +348,7 @@ class Result:
         import pandas as pd
 
         rows = []
-        for key, name, unit, found, warnings in self._rows:
+        for key, name, unit, found, warnings in self._content.rows:
             value, std, (low, high) = found if found is not None else (np.nan, np.nan, (np.nan, np.nan))
             rows.append((key, name, value, std, low, high, unit, found is None, ", ".join(warnings)))
         heading = ["key", "name", "value", "std", "ci_low", "ci_high", "unit", "refused", "warnings"]
@@ -384,7 +373,7 @@ class Result:
         """
         from ._control import to_control
 
-        model: control.StateSpace = to_control(self._root["models"], self.frequency, self.response, output, kind)
+        model: control.StateSpace = to_control(self._content.root["models"], self.frequency, self.response, output, kind)
         return model
 
     def to_mjcf(self, joint: str | None = None, into: Path | None = None) -> str:
@@ -475,29 +464,29 @@ class Result:
     def _repr_html_(self) -> str:
         from ._html import result_html
 
-        return result_html(self.findings, self._rows, self._found.figures() if self._found else [])
+        return result_html(self.findings, self._content.rows, self._content.found.figures() if self._content.found else [])
 
     def __eq__(self, other: object) -> bool:
-        return self._data == other._data if isinstance(other, Result) else NotImplemented
+        return self._content.data == other._content.data if isinstance(other, Result) else NotImplemented
 
     def __hash__(self) -> int:
-        return hash(self._data)
+        return hash(self._content.data)
 
     def __bytes__(self) -> bytes:
-        return self._data
+        return self._content.data
 
     def __reduce__(self) -> tuple[Any, ...]:
-        return (Result, (self._data,))
+        return (Result, (self._content.data,))
 
     @property
     def _text(self) -> str:
-        return self._data.decode()
+        return self._content.data.decode()
 
     def _estimates(self, table: str) -> Mapping[str, Estimate | None]:
-        return MappingProxyType(_estimates(self._root[table] or {}))
+        return MappingProxyType(_estimates(self._content.root[table] or {}))
 
     def _responses(self) -> list[tuple[str, dict[str, Any]]]:
-        table = self._root["frequency_response"]
+        table = self._content.root["frequency_response"]
         motor = [(name, table[name]) for name in ("motor_raw", "motor_corrected") if table.get(name)]
         taken = {name for name, _ in motor}
         named = [(f"tip {tip['name']}" if tip["name"] in taken else tip["name"], tip) for tip in table["tips"]]
@@ -509,7 +498,7 @@ class Result:
         return _lissom.export(self._text, target, None if into is None else os.fspath(into), joint)
 
     def _no_key(self, key: str) -> str:
-        return f"{key}; the keys are {', '.join(self._listed)}"
+        return f"{key}; the keys are {', '.join(self._content.listed)}"
 
 
 def _is_estimate(value: object) -> bool:

@@ -93,7 +93,7 @@ pub fn even_parts(mut log: LogRows, skip_s: f64, least: usize) -> Result<EvenLog
     if let (Some(sample_time_s), None) = (log.sample_time_s, &tally.repeated) {
         let base = TimeBase::uniform(log.stamps_s[0], sample_time_s);
         parts.push(Part { rows: 0..log.stamps_s.len(), base, sampling: Sampling::AsLogged });
-        return Ok(finish(&log, parts, tally, 0));
+        return Ok(finish(log, parts, tally, 0));
     }
     let bounds: Vec<usize> = [0].into_iter().chain(cuts).chain([log.stamps_s.len()]).collect();
     for bound in bounds.windows(2) {
@@ -117,11 +117,11 @@ pub fn even_parts(mut log: LogRows, skip_s: f64, least: usize) -> Result<EvenLog
             tally.rates = Some(Note::RateChange { rates: starts.len() - 1, at_s, first_s, last_s });
         }
     }
-    Ok(finish(&log, parts, tally, least))
+    Ok(finish(log, parts, tally, least))
 }
 
 /// Samples of the parts that are long enough.
-fn finish(log: &LogRows, parts: Vec<Part>, mut tally: Tally, least: usize) -> EvenLog {
+fn finish(mut log: LogRows, parts: Vec<Part>, mut tally: Tally, least: usize) -> EvenLog {
     let cuts = parts.len().saturating_sub(1);
     let mut found = EvenLog { parts: Vec::new(), cuts, longest: 0 };
     for part in parts {
@@ -130,7 +130,7 @@ fn finish(log: &LogRows, parts: Vec<Part>, mut tally: Tally, least: usize) -> Ev
             tally.drop(log.stamps_s[part.rows.start], part.rows.len());
             continue;
         }
-        let (even, interpolated) = part.even(log);
+        let (even, interpolated) = if cuts == 0 { part.only(&mut log) } else { part.even(&log) };
         found.longest = found.longest.max(even.motor.len());
         tally.samples += even.motor.len();
         if matches!(part.sampling, Sampling::LostRows(_)) {

@@ -1,5 +1,6 @@
 //! Parts of a log that become runs.
 
+use std::mem::take;
 use std::ops::Range;
 
 use super::resample::Resampler;
@@ -81,5 +82,15 @@ impl Part {
         };
         let (motor, tips) = (measured(&log.motor), log.tips.iter().map(measured).collect());
         (EvenPart { time, command, motor, tips, notes }, grid.interpolated())
+    }
+
+    /// The same of the only part of a log, whose channels are moved if they are its samples.
+    pub(super) fn only(&self, log: &mut LogRows) -> (EvenPart, usize) {
+        if !matches!(self.sampling, Sampling::AsLogged) || self.rows != (0..log.motor.len()) {
+            return self.even(log);
+        }
+        let (command, motor) = (take(&mut log.command), take(&mut log.motor));
+        let tips = take(&mut log.tips);
+        (EvenPart { time: self.base, command, motor, tips, notes: Vec::new() }, 0)
     }
 }
