@@ -11,6 +11,9 @@ use pyo3::types::PyDict;
 use crate::columns::{Column, table};
 use crate::worker;
 
+/// A table in memory: its name, and its columns by name.
+type Table<'py> = (String, Vec<(String, Column<'py>)>);
+
 /// A campaign that was read: immutable.
 #[pyclass(frozen, name = "Campaign", module = "lissom._lissom")]
 pub(crate) struct NativeCampaign {
@@ -20,28 +23,29 @@ pub(crate) struct NativeCampaign {
 #[pymethods]
 impl NativeCampaign {
     /// Reads a campaign from the text of a campaign.toml. `name` is what errors call it; files are relative to its folder.
-    /// `logs` are tables in memory by the names that the text gives as files. `only` is a log to read in place of the runs.
+    /// `logs` are tables in memory by the names that the text gives as files. `only` are logs to read in place of the runs.
     #[staticmethod]
-    #[pyo3(signature = (name, text, logs, only=None))]
+    #[pyo3(signature = (name, text, logs, only=Vec::new()))]
     fn of_text(
         py: Python<'_>,
         name: PathBuf,
         text: String,
-        logs: Vec<(String, Vec<(String, Column<'_>)>)>,
-        only: Option<PathBuf>,
+        logs: Vec<Table<'_>>,
+        only: Vec<PathBuf>,
     ) -> PyResult<Self> {
-        let mut memory = MemoryLogs::default();
-        for (name, columns) in &logs {
-            memory.add(name.as_str(), table(columns));
-        }
-        Self::read(py, CampaignReader::of_text(name, text).with_logs(memory), only)
+        Self::read(py, CampaignReader::of_text(name, text), &logs, &only)
     }
 
-    /// Reads a campaign.toml and its logs. `only` is a log to read in place of its runs.
+    /// Reads a campaign.toml and its logs. `only` are logs to read in place of its runs, of which `logs` are in memory.
     #[staticmethod]
-    #[pyo3(signature = (path, only=None))]
-    fn of_file(py: Python<'_>, path: PathBuf, only: Option<PathBuf>) -> PyResult<Self> {
-        Self::read(py, CampaignReader::of_file(&path), only)
+    #[pyo3(signature = (path, logs=Vec::new(), only=Vec::new()))]
+    fn of_file(
+        py: Python<'_>,
+        path: PathBuf,
+        logs: Vec<Table<'_>>,
+        only: Vec<PathBuf>,
+    ) -> PyResult<Self> {
+        Self::read(py, CampaignReader::of_file(&path), &logs, &only)
     }
 
     /// The runs: name, sample time and start [s], and the arrays `time`, `command`, `motor` and one for each tip, in SI.
@@ -73,11 +77,17 @@ impl NativeCampaign {
 }
 
 impl NativeCampaign {
-    fn read(py: Python<'_>, reader: CampaignReader, only: Option<PathBuf>) -> PyResult<Self> {
-        let reader = match only {
-            Some(log) => reader.only(&log),
-            None => reader,
-        };
+    fn read(
+        py: Python<'_>,
+        reader: CampaignReader,
+        logs: &[Table<'_>],
+        only: &[PathBuf],
+    ) -> PyResult<Self> {
+        let mut memory = MemoryLogs::default();
+        for (name, columns) in logs {
+            memory.add(name.as_str(), table(columns));
+        }
+        let reader = only.iter().fold(reader.with_logs(memory), |reader, log| reader.only(log));
         let file = worker::wait(py, move || Ok(reader.read()?))?;
         Ok(Self { file: Arc::new(file) })
     }

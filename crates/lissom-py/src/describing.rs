@@ -5,6 +5,7 @@ use std::path::PathBuf;
 
 use lissom::DescribedLogs;
 use lissom::io::inspect::{Choice, CommandKey, Description};
+use lissom::io::units::{Dimension, parse_any_unit};
 use pyo3::prelude::*;
 
 use crate::worker;
@@ -53,6 +54,7 @@ pub(crate) fn describe(
             gravity,
             mgl: text("mgl"),
             skip: text("skip"),
+            window: text("window"),
             ..Description::default()
         };
         let found = DescribedLogs::new(&logs, &description)?;
@@ -61,4 +63,11 @@ pub(crate) fn describe(
         Ok((found.draft.text()?, notes))
     };
     worker::wait(py, work)
+}
+
+/// Whether a unit of the motor is one of a linear axis: of length or velocity. Not for an unknown unit.
+#[pyfunction]
+pub(crate) fn is_linear(unit: &str) -> bool {
+    let linear = |(_, dimension)| [Dimension::LENGTH, Dimension::VELOCITY].contains(&dimension);
+    parse_any_unit(unit).is_ok_and(linear)
 }

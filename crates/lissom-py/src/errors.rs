@@ -1,6 +1,7 @@
 //! Errors as exceptions of the package: `lissom.InputError` and `lissom.FileError`, each with a hint.
 
 use std::error::Error as _;
+use std::io::ErrorKind;
 
 use lissom::Error;
 use lissom::io::LogError;
@@ -32,20 +33,23 @@ pub(crate) fn internal_error() -> PyErr {
     PyRuntimeError::new_err("lissom stopped by a fault of its own; please report it with the input")
 }
 
-/// Whether the cause is that a file cannot be opened, read or written.
-fn is_of_file(error: &Error) -> bool {
-    let Error::File(file) = error else { return false };
-    if matches!(file, lissom::io::Error::Write(_) | lissom::io::Error::Log(LogError::Open { .. })) {
-        return true;
-    }
-    let mut cause = file.source();
-    while let Some(error) = cause {
-        if error.is::<std::io::Error>() {
-            return true;
+/// The class of an error: one of files if a file cannot be opened, read or written.
+fn class_of(error: &Error) -> &'static str {
+    let Error::File(file) = error else { return "InputError" };
+    let mut causes = std::iter::successors(file.source(), |&cause| cause.source());
+    let of_system = causes.find_map(|cause| cause.downcast_ref::<std::io::Error>());
+    match of_system {
+        Some(cause) if cause.kind() == ErrorKind::NotFound => "MissingFileError",
+        Some(_) => "FileError",
+        None if matches!(
+            file,
+            lissom::io::Error::Write(_) | lissom::io::Error::Log(LogError::Open { .. })
+        ) =>
+        {
+            "FileError"
         }
-        cause = error.source();
+        None => "InputError",
     }
-    false
 }
 
 /// The exception of a fleet that cannot go on.
@@ -63,6 +67,5 @@ pub(crate) fn fleet_raised(py: Python<'_>, error: &FleetError) -> PyErr {
 /// The exception of any error of the library.
 pub(crate) fn raised(py: Python<'_>, error: impl Into<Error>) -> PyErr {
     let error = error.into();
-    let class = if is_of_file(&error) { "FileError" } else { "InputError" };
-    exception(py, class, &error.to_string(), error.hint().as_deref())
+    exception(py, class_of(&error), &error.to_string(), error.hint().as_deref())
 }

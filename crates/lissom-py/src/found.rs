@@ -4,12 +4,14 @@ use std::path::Path;
 use std::sync::Arc;
 
 use lissom::io::{CampaignFile, PayloadFile, write};
-use lissom::{Found, Payloads, predict_payload};
+use lissom::{EquivalentInput, Found, Payloads, predict_payload};
 use lissom_views::known_arm::checked;
 use lissom_views::{ProgramHints, Reference, report_page, result_figures};
 use pyo3::prelude::*;
 use pyo3::types::PyBytes;
 
+use crate::campaign::NativeCampaign;
+use crate::equivalent::{Solved, solved};
 use crate::errors::{input_error, raised};
 use crate::reading_results::{Row, rows};
 
@@ -63,6 +65,19 @@ impl NativeFound {
             .map_err(|error| input_error(py, &error.to_string(), Some(error.hint())))?;
         write::json_text(Path::new("payload"), &PayloadFile::of(&found))
             .map_err(|error| raised(py, error))
+    }
+
+    /// The equivalent arm of the responses, with the lowest `modes` modes.
+    #[pyo3(signature = (modes=None))]
+    fn equivalent(&self, py: Python<'_>, modes: Option<usize>) -> PyResult<Solved> {
+        let input = EquivalentInput::of_campaign(&self.file.campaign, self.found.identified())
+            .map_err(|error| input_error(py, &error.to_string(), Some(error.hint())))?;
+        solved(py, &input, modes)
+    }
+
+    /// The campaign.
+    fn campaign(&self) -> NativeCampaign {
+        NativeCampaign { file: Arc::clone(&self.file) }
     }
 
     /// The figures, each with its name and its SVG.

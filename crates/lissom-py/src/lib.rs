@@ -11,6 +11,7 @@ mod columns;
 mod command;
 mod comparing;
 mod describing;
+mod equivalent;
 mod errors;
 mod exporting;
 mod fleet;
@@ -35,7 +36,9 @@ mod _lissom {
     #[pymodule_export]
     use crate::comparing::compare;
     #[pymodule_export]
-    use crate::describing::describe;
+    use crate::describing::{describe, is_linear};
+    #[pymodule_export]
+    use crate::equivalent::{equivalent_of_arrays, equivalent_of_files};
     #[pymodule_export]
     use crate::exporting::export;
     #[pymodule_export]
@@ -56,7 +59,7 @@ mod _lissom {
     #[pymodule_export]
     use crate::simulating::simulate;
     #[pymodule_export]
-    use crate::validating::validate;
+    use crate::validating::{NativeValidation, validate};
     #[pymodule_export]
     use crate::worker::Pending;
 

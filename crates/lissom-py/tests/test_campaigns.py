@@ -261,11 +261,93 @@ def test_inspect_shows_channels_and_roles(tmp_path: Path) -> None:
     assert list(lissom.inspect(tmp_path / "log.parquet")["name"]) == ["t", "i", "q"]
 
 
-def test_tips_and_logs_of_their_own(logs: dict[str, dict[str, Any]]) -> None:
-    tip = lissom.Signal("theta_m", "rad", name="end")
+def test_tips_have_names_scales_and_offsets(logs: dict[str, dict[str, Any]]) -> None:
+    tip = lissom.Signal("theta_m", "rad", name="end", scale=2.0, offset=0.25)
     campaign = lissom.Campaign(logs, tips=[tip], **SIGNALS)
     assert campaign.tips == ("end",)
-    assert np.array_equal(campaign.runs[0].tips["end"], campaign.runs[0].motor)
+    assert np.array_equal(campaign.runs[0].tips["end"], 2 * campaign.runs[0].motor + 0.25)
+
+
+def test_a_tip_that_is_the_motor_is_refused(logs: dict[str, dict[str, Any]]) -> None:
+    with pytest.raises(lissom.InputError, match='tip "end" has the same samples as the motor'):
+        lissom.Campaign(logs, tips=[lissom.Signal("theta_m", "rad", name="end")], **SIGNALS)
+
+
+def test_a_tip_has_a_log_and_a_clock_of_its_own(tmp_path: Path) -> None:
+    pd.DataFrame(COLUMNS).to_csv(tmp_path / "log.csv", index=False)
+    late = T + 0.2
+    pd.DataFrame({"ms": 1e3 * T, "a": np.sin(5 * late)}).to_csv(tmp_path / "tip.csv", index=False)
+    for time in ("ms:ms", "1 ms", 1e-3):
+        tip = lissom.Signal("a", "rad", file=tmp_path / "tip.csv", time=time, clock="shared")
+        (run,) = lissom.Campaign(tmp_path / "log.csv", tips=[tip], **ROLES).runs
+        assert np.allclose(run.tips["a"], np.sin(5 * (run.time + 0.2)), atol=1e-6)
+    # One period of a sine does not show the shift of another clock.
+    tip = lissom.Signal("a", "rad", file=tmp_path / "tip.csv", time="1 ms", clock="own")
+    with pytest.raises(lissom.InputError, match="at any shift of its clock"):
+        _ = lissom.Campaign(tmp_path / "log.csv", tips=[tip], **ROLES).runs
+
+
+def test_texts_with_decimal_commas_are_read(tmp_path: Path) -> None:
+    lines = ["a preamble", "t;i;q", *(f"{t};{i};{q}".replace(".", ",") for t, i, q in zip(*COLUMNS.values(), strict=True))]
+    (tmp_path / "log.csv").write_text("\n".join(lines))
+    (run,) = lissom.Campaign(tmp_path / "log.csv", decimal=",", header_row=2, **ROLES).runs
+    assert np.array_equal(run.motor, COLUMNS["q"])
+
+
+def test_sample_times_are_texts_or_seconds() -> None:
+    columns = {name: values for name, values in COLUMNS.items() if name != "t"}
+    for time in ("2 ms", "0.002 s", 2e-3):
+        (run,) = lissom.Campaign(columns, **{**ROLES, "time": time}).runs
+        assert run.sample_time_s == 2e-3
+    with pytest.raises(lissom.InputError, match=r"the signal 't' has no unit\n.*\"t:s\""):
+        motor(COLUMNS, time="t")
+    with pytest.raises(lissom.InputError, match="sample_time"):
+        motor(columns, time="2 kg")
+
+
+def test_a_torque_constant_of_a_linear_axis_is_in_newtons() -> None:
+    for signals in ({"motor": "q:mm", "current": "i:A"}, {"motor": "q:mm", "voltage": "i:V"}):
+        plain = lissom.Campaign(COLUMNS, time="t:s", torque_constant=40.0, **signals)  # type: ignore[arg-type]
+        per = "N/A" if "current" in signals else "N/V"
+        named = lissom.Campaign(COLUMNS, time="t:s", torque_constant=f"40 {per}", **signals)  # type: ignore[arg-type]
+        assert plain.runs[0].motor[7] == named.runs[0].motor[7]
+
+
+def test_messages_are_about_arguments() -> None:
+    with pytest.raises(lissom.InputError) as caught:
+        motor(COLUMNS, motor="q:furlong")
+    assert str(caught.value).startswith("`motor.unit`")
+    with pytest.raises(lissom.InputError) as caught:
+        motor(COLUMNS, gear_ratio=2.0)
+    for word in ("campaign", "line ", "[drive]", ".toml"):
+        assert word not in str(caught.value)
+
+
+def test_campaigns_of_logs_are_saved_and_take_other_logs(tmp_path: Path) -> None:
+    for name, factor in (("a b.csv", 1.0), ("c.csv", 2.0), ("d.csv", 3.0)):
+        pd.DataFrame({**COLUMNS, "q": factor * COLUMNS["q"]}).to_csv(tmp_path / name, index=False)
+    said: Any = {"time": "t:s", "motor": "q:rad", "current": "i:A", "hold": "measured", "torque_constant": 0.2}
+    made = lissom.Campaign.of_logs([tmp_path / "a b.csv", tmp_path / "c.csv"], window="0.2 s", current_limit=3.0, **said)
+    (tmp_path / "sub").mkdir()
+    made.save(tmp_path / "sub" / "campaign.toml")
+    text = (tmp_path / "sub" / "campaign.toml").read_text()
+    assert 'file = "../a b.csv"' in text and 'window = "0.2 s"' in text and "current_limit = 3" in text
+    loaded = lissom.Campaign.load(tmp_path / "sub" / "campaign.toml")
+    assert [run.name for run in loaded.runs] == [run.name for run in made.runs] == ["a b.csv", "c.csv"]
+    table = {**COLUMNS, "q": 3 * COLUMNS["q"]}
+    for campaign in (made, loaded):
+        for others in ([tmp_path / "c.csv", tmp_path / "d.csv"], [tmp_path / "c.csv", table]):
+            first, second = campaign.like(others).runs
+            assert np.array_equal(first.motor, 2 * COLUMNS["q"]) and np.array_equal(second.motor, table["q"])
+        (only,) = campaign.like({"mine": table}).runs
+        assert only.name == "mine"
+    again = made.like([tmp_path / "c.csv", tmp_path / "d.csv"])
+    again.save(tmp_path / "again.toml")
+    assert len(lissom.Campaign.load(tmp_path / "again.toml").runs) == 2
+    with pytest.raises(lissom.InputError, match="copy that file"):
+        loaded.save(tmp_path / "third.toml")
+    with pytest.raises(lissom.InputError, match=r'motor = "q:UNIT"'):
+        lissom.Campaign.of_logs(tmp_path / "d.csv", time="t:s", current="i:A", motor="q")
 
 
 def test_logs_describe_themselves(tmp_path: Path, logs: dict[str, dict[str, Any]]) -> None:

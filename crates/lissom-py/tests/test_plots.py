@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import pickle
+
 import lissom
 import numpy as np
 import pytest
@@ -32,6 +34,33 @@ def test_plots_go_into_given_axes(result: lissom.Result) -> None:
     assert line.get_ydata()[0] == pytest.approx(result.friction["forward_nm"])
     with pytest.raises(lissom.InputError, match="2 axes are needed"):
         result.plot.bode(ax=axes[0, 0])
+    plt.close("all")
+
+
+def test_residuals_are_those_of_the_validation(campaign: lissom.Campaign, result: lissom.Result) -> None:
+    import matplotlib.pyplot as plt
+
+    validation = lissom.validate(result, campaign)
+    torque, motor = validation.plot.residual()
+    assert "torque (N·m)" in torque.get_ylabel() and "motor (rad)" in motor.get_ylabel()
+    first, second = validation.motion["motor"]
+    assert np.array_equal(motor.lines[0].get_ydata(), first.residual, equal_nan=True)
+    assert motor.lines[1].get_xdata()[0] == pytest.approx(len(first.time) * campaign.runs[0].sample_time_s)
+    assert np.array_equal(second.measured, campaign.runs[1].motor) and second.run == "run-02"
+    shown = next(run for run in validation.torque if np.isfinite(run.residual).any())
+    there = np.isfinite(shown.residual)
+    left = np.linalg.norm(shown.residual[there]) / np.linalg.norm(shown.measured[there])
+    assert shown.unit == "N·m" and left < 0.1
+    (own,) = result.plot.residual(channels=["motor"])
+    assert np.array_equal(own.lines[0].get_ydata(), first.residual, equal_nan=True)
+    _, axes = plt.subplots()
+    assert result.plot.residual(campaign, ["torque"], axes)[0] is axes
+    with pytest.raises(lissom.InputError, match="no prediction of 'tip'"):
+        validation.plot.residual(["tip"])
+    with pytest.raises(lissom.InputError, match="has no logs"):
+        lissom.Result(bytes(result)).plot.residual()
+    with pytest.raises(lissom.InputError, match="was unpickled"):
+        pickle.loads(pickle.dumps(validation)).plot.residual()
     plt.close("all")
 
 

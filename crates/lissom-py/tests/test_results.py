@@ -94,7 +94,8 @@ def test_a_missing_file_is_an_os_error(tmp_path: Path) -> None:
     for read in (lissom.Result.load, lissom.Campaign.load, lissom.inspect):
         with pytest.raises(OSError) as caught:
             read(tmp_path / "missing.json")
-        assert isinstance(caught.value, lissom.FileError) and "missing.json" in str(caught.value)
+        assert isinstance(caught.value, lissom.FileError) and isinstance(caught.value, FileNotFoundError)
+        assert "missing.json" in str(caught.value)
     copied = pickle.loads(pickle.dumps(caught.value))
     assert str(copied) == str(caught.value) and copied.hint == caught.value.hint
 

@@ -57,6 +57,7 @@ pub use lissom_core::{
 pub use lissom_io as io;
 
 mod described_logs;
+mod equivalent_input;
 mod error;
 mod found;
 mod identify_campaign;
@@ -66,6 +67,7 @@ pub mod prelude;
 mod result_text;
 
 pub use described_logs::DescribedLogs;
+pub use equivalent_input::{EquivalentArmError, EquivalentInput, EquivalentInputError, KnownMotor};
 pub use error::Error;
 pub use found::Found;
 pub use identify_campaign::Identify;

@@ -128,6 +128,7 @@ impl LogArgs {
             gravity: self.gravity,
             mgl: self.mgl.clone(),
             skip: self.skip.clone(),
+            window: None,
         }
     }
 }

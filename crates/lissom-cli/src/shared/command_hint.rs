@@ -54,6 +54,13 @@ fn equivalent(found: &EquivalentFinding) -> Option<&'static str> {
     }
 }
 
+/// The option that states what a log does not.
+pub(crate) fn option(key: &str, value: &str) -> String {
+    let key = if key == "tips" { "tip".to_owned() } else { key.replace('_', "-") };
+    let plain = value.chars().all(|c| c.is_alphanumeric() || "_.:/[]*,=".contains(c));
+    if plain { format!("--{key} {value}") } else { format!("--{key} \"{value}\"") }
+}
+
 /// The option or command that helps when no equivalent arm is found.
 pub(crate) fn refusal_hint(refusal: &EquivalentRefusal) -> Option<&'static str> {
     match refusal {

@@ -10,7 +10,7 @@ use lissom_io::ResultError;
 use lissom_report::FigureError;
 use thiserror::Error;
 
-use super::command_hint::refusal_hint;
+use super::command_hint::{option, refusal_hint};
 
 /// Why a command failed.
 #[derive(Debug, Error)]
@@ -85,6 +85,7 @@ impl Failure {
             Self::NoResult(lissom_io::Error::Result(
                 ResultError::Read { .. } | ResultError::Json { .. } | ResultError::NoResult { .. },
             )) => Some("give files that `lissom identify CAMPAIGN --json FILE` wrote".to_owned()),
+            Self::Io(lissom_io::Error::Draft(error)) => error.hint_with(&option),
             Self::Io(error) | Self::NoResult(error) => error.hint(),
             Self::NotAnOutput { .. } => Some(
                 "put the input before `--json FILE`, give another name, or delete the file if you do not need it"

@@ -2,15 +2,15 @@
 
 use lissom::beam::RootClass;
 use lissom::identify::{Equivalent, Estimate, ResponseZero, StdSource, StrainlessForm};
+use lissom::{EquivalentInput, KnownMotor};
 use lissom_io::UnitNames;
 use lissom_report::{interval, with_uncertainty};
 use lissom_views::digits::counted;
 use lissom_views::equivalent_section::{equation, heading, rows_for_use, torque_name};
 
 use super::printer;
-use crate::tasks::equivalent_input::{Input, KnownMotor};
 
-pub(crate) fn print(input: &Input, found: &Equivalent) {
+pub(crate) fn print(input: &EquivalentInput, found: &Equivalent) {
     head(input, found);
     printer::line("");
     modes(input, found);
@@ -38,7 +38,7 @@ pub(crate) fn brief(names: UnitNames, found: &Equivalent) {
     for_use(names, found, form);
 }
 
-fn head(input: &Input, found: &Equivalent) {
+fn head(input: &EquivalentInput, found: &Equivalent) {
     let data = &input.data;
     let (low, high) = found.fit.range_rad_s;
     printer::line(&format!(
@@ -68,7 +68,7 @@ fn shown(estimate: Estimate) -> String {
     with_uncertainty(estimate.value, estimate.std)
 }
 
-fn modes(input: &Input, found: &Equivalent) {
+fn modes(input: &EquivalentInput, found: &Equivalent) {
     let coupling = format!("coupling [{}]", input.names.coupling_unit());
     let mut heading = vec!["motor clamped", "[rad/s]", "95 % interval", "[Hz]", "damping ratio"];
     if found.arm.is_some() {
@@ -100,7 +100,7 @@ fn modes(input: &Input, found: &Equivalent) {
     printer::table(&rows);
 }
 
-fn figures(input: &Input, found: &Equivalent) {
+fn figures(input: &EquivalentInput, found: &Equivalent) {
     let Some(arm) = &found.arm else { return };
     let names = input.names;
     let of = |get: fn(&KnownMotor) -> Option<Estimate>| input.identified.as_ref().map(get);
@@ -123,7 +123,7 @@ fn figures(input: &Input, found: &Equivalent) {
     printer::table(&rows);
 }
 
-fn as_fitted(input: &Input, found: &Equivalent) {
+fn as_fitted(input: &EquivalentInput, found: &Equivalent) {
     let mut rows = vec![heading(found, "as fitted (17)-(18)")];
     let beam = &found.beam;
     let count = found.points.len();

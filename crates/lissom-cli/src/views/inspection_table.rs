@@ -9,6 +9,7 @@ use lissom_io::inspect::{
 use lissom_views::digits::{counted, trimmed};
 
 use super::printer::{line, table, wrapped};
+use crate::shared::command_hint::option;
 use crate::shared::shell_word::shell_word;
 use crate::tasks::described_logs::tip_option;
 
@@ -212,7 +213,8 @@ fn next(log: &Inspection) {
         Err(missing) => {
             let text = missing.to_string();
             item(text.strip_prefix(&format!("{file}: ")).unwrap_or(&text));
-            let options: Vec<String> = draft.missing().filter_map(DraftError::option).collect();
+            let stated = draft.missing().filter_map(DraftError::statement);
+            let options: Vec<String> = stated.map(|(key, value)| option(key, &value)).collect();
             line("");
             line(&format!(
                 "next, with units in place of UNIT: lissom identify {} {}",

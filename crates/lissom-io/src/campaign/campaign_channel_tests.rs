@@ -19,6 +19,17 @@ fn commanded(keys: &str, drive: &str) -> String {
 }
 
 #[test]
+fn a_tip_with_the_samples_of_the_motor_is_refused() {
+    let with = |tip: &str| PLAIN.replace("[drive]", &format!("tips = [{{ {tip} }}]\n[drive]"));
+    fails(
+        &with("column = \"x\", unit = \"rad\", name = \"end\""),
+        "tip \"end\" has the same samples as the motor in every run: it shows no bending of the arm",
+        Some("give the channel of the sensor at the tip; for a rigid axis, leave the tip out"),
+    );
+    assert!(read(&with("column = \"x\", unit = \"rad\", offset = 0.1")).is_ok());
+}
+
+#[test]
 fn a_command_in_torque_needs_no_constant() {
     let command = |text: &str| read(text).unwrap().campaign.channels.command;
     let torque = command(&commanded("unit = \"N*m\"", "limit = \"2 N*m\""));

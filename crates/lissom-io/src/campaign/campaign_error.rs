@@ -159,6 +159,14 @@ pub enum CampaignError {
         /// Place of the value.
         place: ConfigPlace,
     },
+    /// A tip with the samples of the motor.
+    #[error(
+        "tip \"{tip}\" has the same samples as the motor in every run: it shows no bending of the arm"
+    )]
+    TipIsMotor {
+        /// Name of the tip.
+        tip: String,
+    },
     /// A camera on a linear axis.
     #[error("{place}: x and y of a camera give an angle, but the motor is measured in metres")]
     CameraOnLinear {
@@ -218,6 +226,9 @@ impl CampaignError {
             Self::MglAlone { .. } => "add gravity = true, or remove `mgl`",
             Self::GearAlone { .. } => {
                 "add the torque constant of the motor, or remove this key: without a constant, estimates are per unit of command"
+            }
+            Self::TipIsMotor { .. } => {
+                "give the channel of the sensor at the tip; for a rigid axis, leave the tip out"
             }
             Self::CameraOnLinear { .. } => "give one column with a unit of length",
             Self::CameraQuantity { .. } => "remove `quantity`",

@@ -4,7 +4,7 @@ use std::collections::HashMap;
 
 use lissom_core::record::clock::{self, ClockError, EvenLog, LogRows};
 use lissom_core::record::{
-    Axis, Campaign, Channels, Command, Hold, Note, RecordError, Run, TipQuantity,
+    Axis, Campaign, Channels, Command, Hold, Note, RecordError, Run, Tip, TipQuantity,
 };
 use rayon::prelude::*;
 
@@ -49,7 +49,14 @@ pub(super) fn load(
     for run in loaded {
         runs.extend(run?);
     }
-    let tips = signals.tips.iter().map(|(tip, _)| tip.clone()).collect();
+    let tips: Vec<Tip> = signals.tips.iter().map(|(tip, _)| tip.clone()).collect();
+    for (k, tip) in tips.iter().enumerate() {
+        // Equal samples are one channel given twice; no two sensors agree in every sample of a motion.
+        let is_motor = |run: &Run| run.tips()[k] == run.motor();
+        if tip.quantity == TipQuantity::Angle && !runs.is_empty() && runs.iter().all(is_motor) {
+            return Err(CampaignError::TipIsMotor { tip: tip.name.clone() }.into());
+        }
+    }
     let channels = Channels { axis: signals.axis, command, tips };
     Ok(Campaign::new(channels, runs)?)
 }

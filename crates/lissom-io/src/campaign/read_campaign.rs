@@ -19,7 +19,7 @@ use crate::units::Dimension;
 pub struct CampaignReader {
     source: Result<Source, ConfigError>,
     logs: MemoryLogs,
-    only: Option<PathBuf>,
+    only: Vec<PathBuf>,
     options: ReadOptions,
 }
 
@@ -37,7 +37,7 @@ impl CampaignReader {
 
     fn new(source: Result<Source, ConfigError>) -> Self {
         let (logs, options) = (MemoryLogs::default(), ReadOptions::default());
-        Self { source, logs, only: None, options }
+        Self { source, logs, only: Vec::new(), options }
     }
 
     /// Takes logs from memory: a `file` of the campaign that is the name of one of them is that log.
@@ -46,9 +46,10 @@ impl CampaignReader {
         self
     }
 
-    /// Reads this log in place of the runs of the campaign. The `skip` in its `[analysis]` applies too.
+    /// Reads this log in place of the runs of the campaign; each further call adds a log. The `skip` in the `[analysis]` of the
+    /// campaign applies too.
     pub fn only(mut self, log: &Path) -> Self {
-        self.only = Some(log.to_owned());
+        self.only.push(log.to_owned());
         self
     }
 
@@ -64,7 +65,7 @@ impl CampaignReader {
     /// [`Error::Config`] and [`Error::Campaign`] for the description itself and its `arm.toml`,
     /// [`Error::Log`] and [`Error::Record`] for the logs.
     pub fn read(self) -> Result<CampaignFile, Error> {
-        read(&self.source?, self.only.as_deref(), &self.logs, &self.options)
+        read(&self.source?, &self.only, &self.logs, &self.options)
     }
 }
 
@@ -86,7 +87,7 @@ pub fn read_campaign_like(path: &Path, log: &Path) -> Result<CampaignFile, Error
 
 fn read(
     source: &Source,
-    log: Option<&Path>,
+    only: &[PathBuf],
     memory: &MemoryLogs,
     options: &ReadOptions,
 ) -> Result<CampaignFile, Error> {
@@ -106,9 +107,10 @@ fn read(
         Some(value) => analysis(&value.table()?)?,
         None => (AnalysisOptions::default(), None),
     };
-    let (folder, runs) = match log {
-        Some(log) => (Path::new(""), vec![RunSpec::of_log(log, skip_s)]),
-        None => (source.folder(), runs(&root.need("runs")?, skip_s)?),
+    let (folder, runs) = if only.is_empty() {
+        (source.folder(), runs(&root.need("runs")?, skip_s)?)
+    } else {
+        (Path::new(""), only.iter().map(|log| RunSpec::of_log(log, skip_s)).collect())
     };
     let campaign = load(LogPlaces { folder, memory }, &signals, command, &runs, options)?;
     let campaign = match on_motor {

@@ -55,6 +55,8 @@ pub struct Description {
     pub mgl: Option<String>,
     /// Beginning of every run to leave out, as in "1 s".
     pub skip: Option<String>,
+    /// Length of the window of the regression, as in "0.3 s"; chosen from the data if absent.
+    pub window: Option<String>,
 }
 
 /// A `campaign.toml`, with what was taken from the log.
@@ -140,9 +142,10 @@ impl CampaignDraft {
             lines.push(Line::said("\n[load]\ngravity = true".to_owned()));
             lines.extend(said.mgl.iter().map(|mgl| key("mgl", mgl)));
         }
-        if let Some(skip) = &said.skip {
+        if said.skip.is_some() || said.window.is_some() {
             lines.push(Line::said("\n[analysis]".to_owned()));
-            lines.push(key("skip", skip));
+            lines.extend(said.skip.iter().map(|skip| key("skip", skip)));
+            lines.extend(said.window.iter().map(|window| key("window", window)));
         }
         lines.extend(files.iter().map(|file| run(file, files)));
         Ok(Self { lines, file: log.file.display().to_string() })
@@ -239,7 +242,7 @@ impl Signals<'_> {
                 let unit_why = match stated {
                     _ if of_name => "the unit is the end of its name".to_owned(),
                     Some(stated) if unit_said && stated.text != unit => {
-                        format!("the option says {unit}, the log {}", stated.text)
+                        format!("{unit} is given, the log states {}", stated.text)
                     }
                     _ => String::new(),
                 };

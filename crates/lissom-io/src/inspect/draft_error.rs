@@ -175,32 +175,34 @@ impl DraftError {
         }
     }
 
-    /// The option that says it; `UNIT` stands for the unit, which only the user knows.
-    pub fn option(&self) -> Option<String> {
-        let quoted = |name: &str, unit: &str| {
-            let said = format!("{name}:{unit}");
-            let plain = said.chars().all(|c| c.is_alphanumeric() || "_.:/[]*".contains(c));
-            if plain { said } else { format!("\"{said}\"") }
-        };
+    /// The key that states what is missing, and its value, `COLUMN:UNIT`; `UNIT` stands for the unit, which only the user
+    /// knows.
+    pub fn statement(&self) -> Option<(&'static str, String)> {
         let (role, name) = match self {
             Self::NoRole { role, .. } | Self::Several { role, .. } => (role, None),
             Self::NoUnit { role, name, .. } => (role, Some(name.as_str())),
             _ => return None,
         };
-        let option = match role {
+        let key = match role {
             Role::Time => "time",
             Role::Current => "current",
             Role::Torque => "command",
             Role::Voltage => "voltage",
             Role::Motor => "motor",
             Role::Speed => "speed",
-            Role::Tip => "tip",
+            Role::Tip => "tips",
         };
-        Some(format!("--{option} {}", quoted(name.unwrap_or("COLUMN"), "UNIT")))
+        Some((key, format!("{}:UNIT", name.unwrap_or("COLUMN"))))
     }
 
-    /// What the user can do.
+    /// What the user can do, with keys written as `key = "value"`.
     pub fn hint(&self) -> Option<String> {
+        self.hint_with(&|key, value| format!("{key} = \"{value}\""))
+    }
+
+    /// What the user can do; `write` writes a key with its value.
+    pub fn hint_with(&self, write: &dyn Fn(&str, &str) -> String) -> Option<String> {
+        let written = |error: &Self| error.statement().map(|(key, value)| write(key, &value));
         match self {
             Self::NoLog | Self::OwnLog { .. } | Self::RowsInTurn { .. } => None,
             Self::OtherUnit { .. } => Some(
@@ -241,11 +243,11 @@ impl DraftError {
                 ))
             }
             Self::NoRole { role, .. } | Self::Several { role, .. } | Self::NoUnit { role, .. } => {
-                Some(format!("{}{}", with_right_units(self.option()), more(*role)))
+                Some(format!("{}{}", with_right_units(written(self)), more(*role, write)))
             }
             Self::Incomplete { missing, .. } => {
-                let options: Vec<String> = missing.iter().filter_map(Self::option).collect();
-                Some(with_right_units(Some(options.join(" "))))
+                let statements: Vec<String> = missing.iter().filter_map(written).collect();
+                Some(with_right_units(Some(statements.join(" "))))
             }
         }
     }
@@ -265,25 +267,29 @@ fn are_in_groups(names: &[String]) -> bool {
     first.is_some() && names.iter().all(|name| inner(name) == first)
 }
 
-fn with_right_units(options: Option<String>) -> String {
+fn with_right_units(statements: Option<String>) -> String {
     format!(
         "state it, with units such as s, ms, A, mA, rad, deg, rpm in place of UNIT: {}",
-        options.unwrap_or_default()
+        statements.unwrap_or_default()
     )
 }
 
 /// Other ways to say what has this role.
-fn more(role: Role) -> &'static str {
+fn more(role: Role, write: &dyn Fn(&str, &str) -> String) -> String {
     match role {
-        Role::Time => "; without time stamps --sample-time \"1 ms\"",
-        Role::Current => {
-            "; another input of the drive as --voltage u:V, --command tau:N*m, or --command v:1 if its unit is unknown"
-        }
-        Role::Torque => "; --command v:1 if its unit is unknown",
-        Role::Motor => {
-            "; a speed as --motor n:rpm, counts of an encoder as --motor counts:rad,scale=0.001534 (2π divided by the \
-             counts per turn)"
-        }
-        Role::Voltage | Role::Speed | Role::Tip => "",
+        Role::Time => format!("; without time stamps {}", write("sample_time", "1 ms")),
+        Role::Current => format!(
+            "; another input of the drive as {}, {}, or {} if its unit is unknown",
+            write("voltage", "u:V"),
+            write("command", "tau:N*m"),
+            write("command", "v:1")
+        ),
+        Role::Torque => format!("; {} if its unit is unknown", write("command", "v:1")),
+        Role::Motor => format!(
+            "; a speed as {}, counts of an encoder as {} (2π divided by the counts per turn)",
+            write("motor", "n:rpm"),
+            write("motor", "counts:rad,scale=0.001534")
+        ),
+        Role::Voltage | Role::Speed | Role::Tip => String::new(),
     }
 }

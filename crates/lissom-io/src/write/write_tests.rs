@@ -180,9 +180,10 @@ fn what_is_written_is_read() {
     plan.command.column = "i".to_owned();
     let stamps: Vec<f64> = (0..100).map(|k| f64::from(k) * 0.003).collect();
     let signal: Vec<f64> = stamps.iter().map(|t| (3.0 * t).sin()).collect();
+    let tip: Vec<f64> = signal.iter().map(|angle| 1.1 * angle).collect();
     for run in &plan.runs {
         let columns: [(&str, &[f64]); 4] =
-            [("t", &stamps), ("i", &signal), ("theta_m", &signal), ("theta_t", &signal)];
+            [("t", &stamps), ("i", &signal), ("theta_m", &signal), ("theta_t", &tip)];
         write_csv(&folder.path().join(&run.file), &columns).unwrap();
     }
     let path = folder.path().join("campaign.toml");
@@ -193,7 +194,7 @@ fn what_is_written_is_read() {
     assert_eq!(read.runs[0].omega_rad_s(), Some(3.0));
     for run in &read.runs {
         assert_eq!(run.motor(), signal);
-        assert_eq!(run.tips(), std::slice::from_ref(&signal));
+        assert_eq!(run.tips(), std::slice::from_ref(&tip));
         assert_eq!(run.sample_time_s(), 0.003);
     }
 }

@@ -12,7 +12,8 @@ Numbers are in SI units and rad/s; keys end with their unit, as in ``result["fri
 """
 
 from ._campaign import Campaign
-from ._errors import FileError, InputError, LissomError, RefusedError
+from ._equivalent import Equivalent
+from ._errors import FileError, InputError, LissomError, MissingFileError, RefusedError
 from ._estimate import Estimate
 from ._finding import Finding
 from ._fleet import Fleet
@@ -23,15 +24,19 @@ from ._interrupted import Interrupted
 from ._lissom import __version__
 from ._plan import Plan
 from ._plots import ResultPlots
+from ._prediction import Prediction
+from ._responses import equivalent
 from ._result import Result
 from ._run import Run
 from ._signal import Signal
 from ._tables import Log
 from ._validation import Validation
+from ._validation_plots import ValidationPlots
 
 __all__ = [
     "Campaign",
     "Drift",
+    "Equivalent",
     "Estimate",
     "FileError",
     "Finding",
@@ -41,17 +46,21 @@ __all__ = [
     "Interrupted",
     "LissomError",
     "Log",
+    "MissingFileError",
     "Outlier",
     "ParameterSummary",
     "Plan",
+    "Prediction",
     "RefusedError",
     "Result",
     "ResultPlots",
     "Run",
     "Signal",
     "Validation",
+    "ValidationPlots",
     "__version__",
     "compare",
+    "equivalent",
     "fleet",
     "identify",
     "inspect",

@@ -4,35 +4,24 @@ from __future__ import annotations
 
 import os
 from collections.abc import Mapping, Sequence
-from numbers import Real
 from pathlib import Path as FilePath
-from typing import TYPE_CHECKING, Any, cast
+from typing import TYPE_CHECKING, Any, Literal, cast
 
 from . import _lissom
-from ._campaign_text import campaign_text, columns_of, memory_name
-from ._errors import FileError, InputError
+from ._campaign_text import campaign_text, columns_of, memory_name, with_paths, with_runs
+from ._drive import DRIVE, drive_table, with_unit
+from ._errors import InputError, file_error
 from ._lissom import Campaign as Native
+from ._named_logs import named
 from ._process import use
 from ._run import Run
-from ._signal import Signal
+from ._signal import Signal, time_table
 from ._tables import Log, Path, columns, is_path, is_time, path_text, several
+from ._words import of_arguments
 
 if TYPE_CHECKING:
     from ._lissom import _Columns as Columns
 
-#: Keys of the table [drive].
-_DRIVE = (
-    "torque_constant",
-    "current_limit",
-    "voltage_limit",
-    "limit",
-    "gear_ratio",
-    "gear_efficiency",
-    "resistance",
-    "back_emf",
-    "position_gain",
-    "arm",
-)
 _INPUTS = ("current", "voltage", "torque", "command")
 
 
@@ -47,7 +36,7 @@ class Campaign:
         The logs: paths, tables of pandas, polars or pyarrow, or mappings of column names to arrays; one, or a list. A mapping
         of names to such logs names the runs.
     time : Signal, str or float
-        The time stamps, as ``"t:ms"``; or the sample time [s] of logs without stamps.
+        The time stamps, as ``"t:ms"``; or the sample time of logs without stamps, as ``"2 ms"`` or in seconds.
     motor : Signal or str
         Angle, position or speed of the motor.
     current, voltage, torque, command : Signal or str, optional
@@ -68,10 +57,16 @@ class Campaign:
         Length of the window of the regression; chosen from the data if absent.
     hold : {'measured', 'sampled'}, optional
         How the input acts between samples; overrides that of its signal.
+    decimal : {'.', ','}, optional
+        Decimal sign of logs that are texts; a point if absent.
+    header_row : int, optional
+        Row of a text with the names, from 1; found if absent.
+    skip_rows : int
+        Rows at the top of a text that do not count.
     **drive : str or float
-        Constants of the drive: ``torque_constant`` ("0.1 N*m/A", or in N·m per unit of the input), ``current_limit``,
-        ``voltage_limit``, ``gear_ratio``, ``gear_efficiency``, ``resistance``, ``back_emf``, ``position_gain``, ``arm`` (path
-        of an arm.toml to compare with). Numbers are in SI units.
+        Constants of the drive: ``torque_constant`` ("0.1 N*m/A", or in N·m per unit of the input, on a linear axis in N),
+        ``current_limit``, ``voltage_limit``, ``gear_ratio``, ``gear_efficiency``, ``resistance``, ``back_emf``,
+        ``position_gain``, ``arm`` (path of an arm.toml to compare with). Numbers are in SI units.
 
     Examples
     --------
@@ -101,6 +96,9 @@ class Campaign:
         skip: str | float | None = None,
         window: str | float | None = None,
         hold: str | None = None,
+        decimal: Literal[".", ","] | None = None,
+        header_row: int | None = None,
+        skip_rows: int = 0,
         **drive: str | float,
     ) -> None:
         inputs = {"current": current, "voltage": voltage, "torque": torque, "command": command}
@@ -112,16 +110,13 @@ class Campaign:
                 'give one, as in current="i:A"',
             )
         ((role, source),) = given.items()
-        signals: dict[str, object] = {}
-        if isinstance(time, Real) and not isinstance(time, bool):
-            signals["sample_time"] = f"{float(time)!r} s"
-        else:
-            signals["time"] = Signal.of(cast("Signal | str", time))._table("time")
+        signals: dict[str, object] = time_table(time)
         entry = source._table("command")
         if hold is not None:
             entry["hold"] = hold
         signals["command" if role == "torque" else role] = entry
-        signals["motor"] = Signal.of(motor)._table("motor")
+        axis = Signal.of(motor)
+        signals["motor"] = axis._table("motor")
         if speed is not None:
             signals["speed"] = Signal.of(speed)._table("speed")
         if isinstance(tips, (str, Signal)):
@@ -130,21 +125,23 @@ class Campaign:
             signals["tips"] = [_tip(Signal.of(tip)) for tip in tips]
         if run is not None:
             signals["run"] = run
+        text = {"decimal": decimal, "header_row": header_row, "skip_rows": skip_rows or None}
+        signals |= {key: value for key, value in text.items() if value is not None}
         tables: dict[str, Mapping[str, object]] = {"signals": signals}
-        unknown = [key for key in drive if key not in _DRIVE]
+        unknown = [key for key in drive if key not in DRIVE]
         if unknown:
-            raise TypeError(f"Campaign has no argument {unknown[0]!r}; constants of the drive are {', '.join(_DRIVE)}")
+            raise TypeError(f"Campaign has no argument {unknown[0]!r}; constants of the drive are {', '.join(DRIVE)}")
         if drive:
-            tables["drive"] = {key: _constant(key, value, role) for key, value in drive.items()}
+            tables["drive"] = drive_table(drive, role, _lissom.is_linear(axis.unit))
         if mgl is not None:
-            tables["load"] = {"gravity": True, "mgl": _with_unit(mgl, "N*m")}
+            tables["load"] = {"gravity": True, "mgl": with_unit(mgl, "N*m")}
         elif bool(gravity):
             tables["load"] = {"gravity": True}
         analysis = {"skip": skip, "window": window}
         if any(value is not None for value in analysis.values()):
-            tables["analysis"] = {k: _with_unit(v, "s") for k, v in analysis.items() if v is not None}
+            tables["analysis"] = {k: with_unit(v, "s") for k, v in analysis.items() if v is not None}
         self._tables = tables
-        self._logs = _named(runs)
+        self._logs = named(runs)
         if any(not is_path(log) for _, log in self._logs):
             # Arrays may change later: they are copied now.
             self._read()
@@ -157,8 +154,8 @@ class Campaign:
     #: The text of a campaign.toml that `of_logs` made.
     _described: str | None = None
     _notes: tuple[str, ...] = ()
-    #: A log that is read in place of the runs of `_path` or `_described`.
-    _only: str | None = None
+    #: Logs that are read in place of the runs of `_path`.
+    _only: Sequence[tuple[str, Log]] = ()
     #: What was read.
     _native: Native | None = None
 
@@ -217,7 +214,10 @@ class Campaign:
         gravity: bool = False,
         mgl: str | float | None = None,
         skip: str | float | None = None,
+        window: str | float | None = None,
         torque_constant: str | float | None = None,
+        current_limit: str | float | None = None,
+        voltage_limit: str | float | None = None,
         resistance: str | float | None = None,
         back_emf: str | float | None = None,
         gear_ratio: float | None = None,
@@ -250,8 +250,10 @@ class Campaign:
             Known torque m·g·l of that load, or in N·m.
         skip : str or float, optional
             Beginning of each run to leave out, or in seconds.
-        torque_constant, resistance, back_emf : str or float, optional
-            Constants of the motor, as ``"0.1 N*m/A"``, or in SI units.
+        window : str or float, optional
+            Length of the window of the regression, or in seconds; chosen from the data if absent.
+        torque_constant, current_limit, voltage_limit, resistance, back_emf : str or float, optional
+            Constants of the drive, as ``"0.1 N*m/A"``, or in SI units.
         gear_ratio : float, optional
             Turns of the motor for one turn of the joint.
         header_row : int, optional
@@ -276,7 +278,7 @@ class Campaign:
         files = [path_text(log) for log in given]
         texts = {
             "time": time,
-            "sample_time": None if sample_time is None else _with_unit(sample_time, "s"),
+            "sample_time": None if sample_time is None else with_unit(sample_time, "s"),
             "motor": motor,
             "current": current,
             "voltage": voltage,
@@ -285,15 +287,23 @@ class Campaign:
             "speed": speed,
             "run": run,
             "hold": hold,
-            "mgl": None if mgl is None else _with_unit(mgl, "N*m"),
-            "skip": None if skip is None else _with_unit(skip, "s"),
+            "mgl": None if mgl is None else with_unit(mgl, "N*m"),
+            "skip": None if skip is None else with_unit(skip, "s"),
+            "window": None if window is None else with_unit(window, "s"),
         }
         said = {key: text for key, text in texts.items() if text is not None}
         role = "voltage" if voltage is not None else "current"
-        constants = {"torque_constant": torque_constant, "resistance": resistance, "back_emf": back_emf}
-        drive = [(key, str(_constant(key, value, role))) for key, value in constants.items() if value is not None]
-        if gear_ratio is not None:
-            drive.append(("gear_ratio", str(float(gear_ratio))))
+        constants = {
+            "torque_constant": torque_constant,
+            "current_limit": current_limit,
+            "voltage_limit": voltage_limit,
+            "resistance": resistance,
+            "back_emf": back_emf,
+            "gear_ratio": gear_ratio,
+        }
+        linear = motor is not None and _lissom.is_linear(motor.rpartition(":")[2])
+        known = {key: value for key, value in constants.items() if value is not None}
+        drive = [(key, str(value)) for key, value in drive_table(known, role, linear).items()]
         text, notes = _lissom.describe(files, said, list(tips), drive, gravity, header_row, skip_rows)
         made = cls._empty()
         made._logs, made._described, made._notes = [(file, file) for file in files], text, tuple(notes)
@@ -310,7 +320,7 @@ class Campaign:
         Raises
         ------
         InputError
-            If a run is a table in memory.
+            If a run is a table in memory, or the campaign was read from a file.
         FileError
             If the file exists or cannot be written.
         """
@@ -323,15 +333,20 @@ class Campaign:
                 f"the run {in_memory[0]!r} is a table in memory, which a campaign.toml cannot name",
                 "write the table as CSV or Parquet first, and give its path",
             )
-        if self._described is not None:
-            raise InputError("this campaign was made by of_logs", "write it with `lissom init`")
         folder = target.parent.resolve()
-        text = campaign_text(self._tables, self._logs, lambda file: os.path.relpath(FilePath(file).resolve(), folder))
+
+        def moved(file: str) -> str:
+            return os.path.relpath(FilePath(file).resolve(), folder)
+
+        if self._described is not None:
+            text = with_paths(self._described, moved)
+        else:
+            text = campaign_text(self._tables, self._logs, moved)
         try:
             with open(target, "x", encoding="utf-8") as file:
                 file.write(text)
         except OSError as error:
-            raise FileError(f"{target}: {error.strerror}", "give another path") from error
+            raise file_error(target, error, "give another path") from error
 
     @property
     def runs(self) -> tuple[Run, ...]:
@@ -349,7 +364,8 @@ class Campaign:
         Parameters
         ----------
         runs : Log or sequence of Log
-            The other logs.
+            The other logs; a mapping of names to logs names those that are tables in memory, and others if the campaign was
+            not read from a file.
 
         Returns
         -------
@@ -357,18 +373,16 @@ class Campaign:
             The campaign of these logs.
         """
         made = Campaign._empty()
-        made._tables, made._path, made._described = self._tables, self._path, self._described
-        logs = _named(runs)
-        if self._path is None and self._described is None:
-            made._logs = logs
-        elif len(logs) == 1 and is_path(logs[0][1]):
-            made._only = path_text(logs[0][1])
-            made._read()
+        made._tables, made._path = self._tables, self._path
+        logs = named(runs)
+        if self._path is not None:
+            made._only = logs
         else:
-            raise InputError(
-                "a campaign of a campaign.toml or of of_logs takes one other log, a path",
-                "make the campaign with Campaign(...) for several logs or tables in memory",
-            )
+            made._logs = logs
+        if self._described is not None:
+            made._described = with_runs(self._described, logs)
+        if made._path is not None or any(not is_path(log) for _, log in logs):
+            made._read()
         return made
 
     def _fleet_text(self) -> tuple[str, str]:
@@ -395,19 +409,23 @@ class Campaign:
 
     def _read(self) -> Native:
         use()
-        if self._native is None:
-            if self._path is not None:
-                self._native = Native.of_file(os.fspath(self._path), self._only)
-            elif self._described is not None:
-                self._native = Native.of_text("campaign", self._described, [], self._only)
-            else:
-                text = campaign_text(self._tables, self._logs)
-                self._native = Native.of_text("campaign", text, self._in_memory())
+        if self._native is not None:
+            return self._native
+        if self._path is not None:
+            tables = [(name, columns(log, name)) for name, log in self._only if not is_path(log)]
+            only = [path_text(log) if is_path(log) else name for name, log in self._only]
+            self._native = Native.of_file(os.fspath(self._path), tables, only)
+            return self._native
+        text = campaign_text(self._tables, self._logs) if self._described is None else self._described
+        try:
+            self._native = Native.of_text("campaign", text, self._in_memory())
+        except InputError as error:
+            raise of_arguments(error) from None
         return self._native
 
     def _in_memory(self) -> list[tuple[str, Columns]]:
         """Give the tables in memory, with the names of their runs in the text."""
-        wanted = columns_of(self._tables["signals"])
+        wanted = columns_of(self._tables["signals"]) if self._tables else ()
         tables = []
         for place, (name, log) in enumerate(self._logs):
             if not is_path(log):
@@ -417,35 +435,13 @@ class Campaign:
 
     def _times_are_seconds(self, name: str, log: Log) -> None:
         """Refuse another unit of dates and durations, which are converted to seconds."""
-        signals = cast("dict[str, Any]", self._tables["signals"])
+        signals = cast("dict[str, Any]", self._tables.get("signals", {}))
         time = signals.get("time")
         if time is not None and time["unit"] != "s" and is_time(log, time["column"]):
             raise InputError(
                 f'{name}: column "{time["column"]}" has dates or durations, which are converted to seconds',
                 f'give its unit as "s" in place of "{time["unit"]}"',
             )
-
-
-def _named(runs: Any) -> list[tuple[str, Log]]:
-    """Give the logs with their names. A mapping of names to arrays is one log, one to logs are several."""
-    if isinstance(runs, Mapping):
-        values = list(runs.values())
-        if values and all(is_path(log) or isinstance(log, Mapping) or hasattr(log, "columns") for log in values):
-            names = [str(name) for name in runs]
-            twice = next((name for name in names if names.count(name) > 1), None)
-            if twice is not None:
-                raise InputError(f"two runs are called {twice!r}")
-            return list(zip(names, values, strict=True))
-    logs = several(runs)
-    tables = sum(not is_path(log) for log in logs)
-    named, count = [], 0
-    for log in logs:
-        if is_path(log):
-            named.append(path_text(log))
-        else:
-            count += 1
-            named.append("table" if tables == 1 else f"table {count}")
-    return list(zip(named, logs, strict=True))
 
 
 #: Names of the motor's channels in results.
@@ -457,26 +453,3 @@ def _tip(signal: Signal) -> dict[str, object]:
     if table["name"] in _OF_MOTOR:
         raise InputError(f"a tip cannot be called {table['name']!r}", 'give it another name: Signal(..., name="tip")')
     return table
-
-
-def _with_unit(value: str | float, unit: str) -> str:
-    return value if isinstance(value, str) else f"{float(value)!r} {unit}"
-
-
-#: Units of the input, for a torque constant that is a number.
-_PER = {"current": "N*m/A", "voltage": "N*m/V"}
-_SI = {
-    "current_limit": "A",
-    "voltage_limit": "V",
-    "resistance": "ohm",
-    "back_emf": "V*s/rad",
-}
-
-
-def _constant(key: str, value: str | float, role: str) -> object:
-    if isinstance(value, os.PathLike):
-        return os.fspath(value)
-    if isinstance(value, Real) and not isinstance(value, bool):
-        unit = _PER.get(role) if key == "torque_constant" else _SI.get(key)
-        return float(value) if unit is None else f"{float(value)!r} {unit}"
-    return value

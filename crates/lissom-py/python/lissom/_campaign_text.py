@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+import json
 import os
+import re
 from collections.abc import Callable, Mapping, Sequence
 from typing import Any, cast
 
@@ -39,6 +41,47 @@ def campaign_text(
         if name != path:
             lines.append(f"name = {toml(name)}")
     return "\n".join(lines) + "\n"
+
+
+def with_paths(text: str, moved: Callable[[str], str]) -> str:
+    """Give the text of a campaign.toml with other paths of its logs.
+
+    Parameters
+    ----------
+    text : str
+        The text, as `lissom init` writes it.
+    moved : callable
+        Gives a path as it is to be written.
+
+    Returns
+    -------
+    str
+        The text.
+    """
+
+    def written(found: re.Match[str]) -> str:
+        path = found[2] if found[1] is None else json.loads(found[1])
+        return f"file = {toml(moved(path))}"
+
+    return re.sub(r"""\bfile = (?:("(?:[^"\\]|\\.)*")|'([^']*)')""", written, text)
+
+
+def with_runs(text: str, logs: Sequence[tuple[str, Log]]) -> str:
+    """Give the text of a campaign.toml with other runs.
+
+    Parameters
+    ----------
+    text : str
+        The text, as `lissom init` writes it: the runs are its end.
+    logs : sequence of tuple
+        Names and logs of the runs.
+
+    Returns
+    -------
+    str
+        The text.
+    """
+    return text.partition("\n[[runs]]\n")[0] + "\n" + campaign_text({}, logs)
 
 
 def memory_name(place: int) -> str:

@@ -48,7 +48,7 @@ def to_control(
     if output not in known[kind]:
         raise InputError(f"there is no output {output!r}; the outputs are {', '.join(known[kind])}")
     if kind == "ss":
-        return _state_space(control, models["state_space"], 0 if output == "motor" else 1 + measured.index(output))
+        return state_space(control, models["state_space"], 0 if output == "motor" else 1 + measured.index(output))
     if kind == "tf":
         model = models["motor"] if output == "motor" else tips[output]
         if model is None:
@@ -63,8 +63,23 @@ def to_control(
     return control.FrequencyResponseData(data[there][order][first], omega, **names)
 
 
-def _state_space(control: Any, space: dict[str, Any] | None, output: int) -> Any:
-    """Make a state space of all outputs that have a model, or of one of them if `output` is not 0."""
+def state_space(control: Any, space: dict[str, Any] | None, output: int = 0) -> Any:
+    """Make a state space of python-control.
+
+    Parameters
+    ----------
+    control : module
+        The module control.
+    space : dict or None
+        The state space of a file.
+    output : int
+        Row of the only output, from 0; all outputs that have a model if it is 0.
+
+    Returns
+    -------
+    control.StateSpace
+        The model.
+    """
     if space is None:
         raise InputError("the result has no state space", "its findings give the reason")
     c, d = np.atleast_2d(space["c"]), np.atleast_2d(space["d"])

@@ -43,7 +43,33 @@ class InputError(LissomError, ValueError):
 
 
 class FileError(LissomError, OSError):
-    """A file cannot be opened, read or written."""
+    """A file cannot be opened, read or written. If a file is missing, the exception is also a FileNotFoundError."""
+
+
+class MissingFileError(FileError, FileNotFoundError):
+    """A file does not exist."""
+
+
+def file_error(path: object, error: OSError | ValueError, hint: str) -> FileError:
+    """Make the exception of a file.
+
+    Parameters
+    ----------
+    path : path
+        The file.
+    error : OSError or ValueError
+        What the system says.
+    hint : str
+        What to do about it.
+
+    Returns
+    -------
+    FileError
+        The exception.
+    """
+    kind = MissingFileError if isinstance(error, FileNotFoundError) else FileError
+    shown = repr(path) if isinstance(error, ValueError) else str(path)
+    return kind(f"{shown}: {getattr(error, 'strerror', None) or error}", hint)
 
 
 class RefusedError(LissomError, ValueError):

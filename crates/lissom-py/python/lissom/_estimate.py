@@ -4,6 +4,8 @@ from __future__ import annotations
 
 from typing import Any
 
+from ._units import unit_of
+
 
 class Estimate(float):
     """An estimate: a float with its standard error.
@@ -71,3 +73,35 @@ class Estimate(float):
             return None
         low, high = entry["ci95"]
         return cls(entry["value"], entry["std"], (low, high), unit)
+
+
+def is_estimate(value: object) -> bool:
+    """Whether an entry of a file is an estimate.
+
+    Parameters
+    ----------
+    value : object
+        An entry.
+
+    Returns
+    -------
+    bool
+        Whether it is one.
+    """
+    return isinstance(value, dict) and {"value", "std", "ci95"} <= set(value)
+
+
+def estimates(table: dict[str, Any]) -> dict[str, Estimate | None]:
+    """Give the estimates in a table of a file.
+
+    Parameters
+    ----------
+    table : dict
+        The table.
+
+    Returns
+    -------
+    dict
+        Estimates by key; None if refused.
+    """
+    return {key: Estimate._of(value, unit_of(key)) for key, value in table.items() if value is None or is_estimate(value)}

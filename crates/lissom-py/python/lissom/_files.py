@@ -8,7 +8,7 @@ import tempfile
 from pathlib import Path as FilePath
 from typing import TYPE_CHECKING
 
-from ._errors import FileError
+from ._errors import file_error
 
 if TYPE_CHECKING:
     from ._tables import Path
@@ -40,10 +40,9 @@ def write_whole(path: Path, data: bytes) -> None:
             FilePath(part).unlink(missing_ok=True)
             raise
     except OSError as error:
-        reason = error.strerror or str(error)
-        raise FileError(f"{os.fspath(path)!s}: {reason}", "check the folder and its permissions") from error
+        raise file_error(os.fspath(path), error, "check the folder and its permissions") from error
     except ValueError as error:
-        raise FileError(f"{os.fspath(path)!r}: {error}", "give another name") from error
+        raise file_error(os.fspath(path), error, "give another name") from error
 
 
 def _mask() -> int:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import json
 import os
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from typing import TYPE_CHECKING, Any, Literal, cast
 
 import numpy as np
@@ -16,6 +16,7 @@ from ._errors import InputError, RefusedError
 from ._interrupted import Interrupted
 from ._plan import Plan
 from ._process import use
+from ._progress import Progress, progress_of
 from ._result import Result, refused
 from ._tables import Log, Path, columns, is_path
 from ._toml import toml, toml_key
@@ -39,7 +40,7 @@ def identify(
     window: float | None = None,
     time_limit: float | None = None,
     threads: int | None = None,
-    progress: Callable[[str, float], None] | None = None,
+    progress: Progress | bool | None = None,
 ) -> Result:
     """Identify a drive, and the beam on it, from the logs of a campaign.
 
@@ -60,8 +61,10 @@ def identify(
         Time after which the search ends with the best result so far [s].
     threads : int, optional
         Number of threads; all cores if absent.
-    progress : callable, optional
-        Called about every 50 ms with the name of the stage and the share of the work that is done.
+    progress : bool or callable, optional
+        Whether a bar shows the progress; in notebooks it does if absent, in calls of more than half a second. Or a function
+        that is called about every 50 ms with the name of the stage and the share of the work that is done, 0 to 1. If it
+        raises an exception, the search ends; the exception's ``__cause__`` is an `Interrupted` with the best result so far.
 
     Returns
     -------
@@ -89,12 +92,13 @@ def identify(
     for name, seconds in (("window", window), ("time_limit", time_limit)):
         if seconds is not None and not seconds > 0:
             raise InputError(f"{name} is {seconds} s; it must be positive")
-    done, stopped = _lissom.identify(campaign._read(), effort, window, time_limit, threads, progress)
+    with progress_of(progress) as show:
+        done, stopped = _lissom.identify(campaign._read(), effort, window, time_limit, threads, show)
     if stopped is not None:
         error, pending = stopped
         if isinstance(error, KeyboardInterrupt):
             raise Interrupted(pending) from None
-        raise error
+        raise error from Interrupted(pending)
     result = Result._of(cast("_lissom.Found", done))
     missing = refused(result, require)
     if missing:
@@ -111,7 +115,7 @@ def validate(
     result: Result,
     runs: Log | Sequence[Log] | Campaign,
     *,
-    like: Campaign | None = None,
+    like: Campaign | Path | None = None,
     window: float | None = None,
     horizon: float | None = None,
 ) -> Validation:
@@ -123,8 +127,8 @@ def validate(
         The result.
     runs : Campaign, Log or sequence of Log
         The other logs: a campaign of them, or logs with the columns of `like`.
-    like : Campaign, optional
-        A campaign with the columns, units and drive of the logs.
+    like : Campaign or path, optional
+        A campaign, or a campaign.toml, with the columns, units and drive of the logs.
     window : float, optional
         Length of the window with which both torques are averaged [s].
     horizon : float, optional
@@ -138,15 +142,15 @@ def validate(
     for name, seconds in (("window", window), ("horizon", horizon)):
         if seconds is not None and not 0 < seconds < float("inf"):
             raise InputError(f"{name} is {seconds} s; it must be positive")
-    if not isinstance(result, Result) or not (like is None or isinstance(like, Campaign)):
-        raise InputError("validate takes a Result, logs, and a Campaign", "read them with Result.load and Campaign.load")
+    if not isinstance(result, Result):
+        raise InputError("validate takes a Result", "read it with Result.load")
     if isinstance(runs, Campaign):
         campaign = runs
     elif like is None:
         raise InputError("nothing describes the columns of the logs", "give like=, the campaign of the result")
     else:
-        campaign = like.like(runs)
-    return Validation(_lissom.validate(bytes(result).decode(), campaign._read(), window, horizon))
+        campaign = (like if isinstance(like, Campaign) else Campaign.load(like)).like(runs)
+    return Validation._of(_lissom.validate(result._text, campaign._read(), window, horizon))
 
 
 def inspect(log: Log, *, header_row: int | None = None, skip_rows: int = 0) -> pd.DataFrame:

@@ -2,18 +2,21 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from typing import TYPE_CHECKING, Any, Protocol
 
 import numpy as np
 from numpy.typing import NDArray
 
+from ._axes import axes_of
 from ._errors import InputError
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes  # type: ignore[import-not-found,unused-ignore]
 
+    from ._campaign import Campaign
     from ._estimate import Estimate
+    from ._validation import Validation
 
 _TORQUES = {"nm": "N·m", "n": "N", "a": "A", "v": "V"}
 _RAW, _CORRECTED, _MODEL = "0.6", "C0", "C3"
@@ -44,6 +47,9 @@ class Plotted(Protocol):
 
     def to_dict(self) -> dict[str, Any]:
         """Everything else."""
+
+    def _validation(self, campaign: Campaign | None) -> Validation:
+        """Predict the runs of a campaign."""
 
 
 class ResultPlots:
@@ -78,7 +84,7 @@ class ResultPlots:
         found = {name: result.response[name] for name in names if name in result.response}
         if not found:
             raise InputError(f"there is no response of {output!r}", f"there is one of {', '.join(result.response)}")
-        axes = _axes(ax, 2)
+        axes = axes_of(ax, 2)
         magnitude, phase = axes
         omega, vouched = result.frequency, result.response_vouched_for
         for name, response in found.items():
@@ -138,7 +144,7 @@ class ResultPlots:
         lines = self._lines()
         if not speeds and not lines:
             raise InputError("there is no friction to draw", "the findings give the reason")
-        (axes,) = _axes(ax, 1)
+        (axes,) = axes_of(ax, 1)
         if speeds:
             style = {"fmt": "o", "color": _CORRECTED, "markersize": 4, "label": "at single speeds, without a law"}
             # A bar that is longer than all values says that nothing is known there, and would hide the others.
@@ -158,6 +164,30 @@ class ResultPlots:
         axes.legend(first.values(), first.keys())
         axes.grid(True, alpha=0.3)
         return axes
+
+    def residual(self, campaign: Campaign | None = None, channels: Sequence[str] | None = None, ax: Any = None) -> NDArray[Any]:
+        """Draw what the result leaves of torque and motion: measured minus predicted values over time.
+
+        Parameters
+        ----------
+        campaign : Campaign, optional
+            The runs; those from which the result was identified if absent.
+        channels : sequence of str, optional
+            Of ``"torque"``, ``"motor"`` and the names of tips; all that are predicted if absent.
+        ax : matplotlib axes or sequence of them, optional
+            One for each channel; a new figure if absent.
+
+        Returns
+        -------
+        array of matplotlib axes, shape (n,)
+            One for each channel.
+
+        Raises
+        ------
+        InputError
+            If no campaign is given and the result was read from a file or unpickled.
+        """
+        return self._result._validation(campaign).plot.residual(channels, ax)
 
     def _lines(self) -> dict[int, tuple[float, float]]:
         """Give Coulomb and viscous friction by the sign of the speed, in the unit of the curve."""
@@ -191,16 +221,3 @@ class ResultPlots:
         jumps = np.abs(np.diff(angle)) > 180
         angle[1:][jumps] = np.nan
         axes[1].plot(line, angle, color=_MODEL, linewidth=1, zorder=0)
-
-
-def _axes(ax: Any, count: int) -> NDArray[Any]:
-    """Give the axes to draw into."""
-    if ax is not None:
-        given = np.atleast_1d(np.asarray(ax, dtype=object)).ravel()
-        if len(given) != count:
-            raise InputError(f"{count} axes are needed, not {len(given)}")
-        return given
-    import matplotlib.pyplot as plt
-
-    _, axes = plt.subplots(count, 1, sharex=True, squeeze=False, layout="constrained")
-    return np.asarray(axes).ravel()

@@ -15,17 +15,20 @@ from numpy.typing import NDArray
 
 from . import _lissom
 from ._content import Content
-from ._errors import FileError, InputError
-from ._estimate import Estimate
+from ._errors import InputError, file_error
+from ._estimate import Estimate, estimates, is_estimate
 from ._files import write_whole
 from ._finding import Finding
 from ._plots import ResultPlots
 from ._tables import Path
 from ._units import unit_of
+from ._validation import Validation
 
 if TYPE_CHECKING:
     import control  # type: ignore[import-untyped,unused-ignore]
     import pandas as pd
+
+    from ._campaign import Campaign
 
 
 #: What to do about a result without logs.
@@ -73,8 +76,7 @@ class Result:
         try:
             data = FilePath(path).read_bytes()
         except (OSError, ValueError) as error:
-            reason = getattr(error, "strerror", None) or str(error)
-            raise FileError(f"{os.fspath(path)!s}: {reason}", "check the path") from error
+            raise file_error(os.fspath(path), error, "check the path") from error
         try:
             return cls(data)
         except InputError as error:
@@ -179,7 +181,7 @@ class Result:
     def modes(self) -> tuple[Mapping[str, Estimate | None], ...]:
         """Modes with the motor clamped, ascending: ``natural_frequency_rad_s``, ``damping_ratio``."""
         modes = self._content.root["beam"]["modes"]
-        return tuple(MappingProxyType(_estimates(mode)) for mode in modes)
+        return tuple(MappingProxyType(estimates(mode)) for mode in modes)
 
     @functools.cached_property
     def findings(self) -> tuple[Finding, ...]:
@@ -313,7 +315,7 @@ class Result:
                 raise KeyError(self._no_key(key)) from None
         if value is None:
             return None
-        if not _is_estimate(value):
+        if not is_estimate(value):
             raise KeyError(f"{key} is no estimate; to_dict() has everything")
         return Estimate._of(value, unit_of(key))
 
@@ -452,7 +454,7 @@ class Result:
         try:
             made.mkdir(parents=True, exist_ok=True)
         except (OSError, ValueError) as error:
-            raise FileError(f"{os.fspath(folder)}: {error}", "give a folder that can be made") from error
+            raise file_error(os.fspath(folder), error, "give a folder that can be made") from error
         files = self._exported("c")
         for name, data in files:
             write_whole(made / name, data)
@@ -483,7 +485,7 @@ class Result:
         return self._content.data.decode()
 
     def _estimates(self, table: str) -> Mapping[str, Estimate | None]:
-        return MappingProxyType(_estimates(self._content.root[table] or {}))
+        return MappingProxyType(estimates(self._content.root[table] or {}))
 
     def _responses(self) -> list[tuple[str, dict[str, Any]]]:
         table = self._content.root["frequency_response"]
@@ -492,6 +494,16 @@ class Result:
         named = [(f"tip {tip['name']}" if tip["name"] in taken else tip["name"], tip) for tip in table["tips"]]
         return motor + named
 
+    def _validation(self, campaign: Campaign | None) -> Validation:
+        """Predict the runs of a campaign, or those of the result."""
+        if campaign is not None:
+            logs = campaign._read()
+        elif self._content.found is not None:
+            logs = self._content.found.campaign()
+        else:
+            raise InputError("this result has no logs", "give the campaign of its logs")
+        return Validation._of(_lissom.validate(self._text, logs))
+
     def _exported(self, target: str, into: Path | None = None, joint: str | None = None) -> list[tuple[str, bytes]]:
         if (into is None) != (joint is None):
             raise InputError("`joint` and `into` are given together, or neither of them")
@@ -499,14 +511,6 @@ class Result:
 
     def _no_key(self, key: str) -> str:
         return f"{key}; the keys are {', '.join(self._content.listed)}"
-
-
-def _is_estimate(value: object) -> bool:
-    return isinstance(value, dict) and {"value", "std", "ci95"} <= set(value)
-
-
-def _estimates(table: dict[str, Any]) -> dict[str, Estimate | None]:
-    return {key: Estimate._of(value, unit_of(key)) for key, value in table.items() if value is None or _is_estimate(value)}
 
 
 _Array = TypeVar("_Array", bound="NDArray[Any]")

@@ -4,9 +4,17 @@ from __future__ import annotations
 
 import functools
 import json
-from typing import Any
+from collections.abc import Mapping
+from types import MappingProxyType
+from typing import TYPE_CHECKING, Any
 
+from ._errors import InputError
 from ._finding import Finding
+from ._prediction import Prediction
+from ._validation_plots import ValidationPlots
+
+if TYPE_CHECKING:
+    from . import _lissom
 
 
 class Validation:
@@ -21,6 +29,14 @@ class Validation:
     def __init__(self, data: bytes) -> None:
         self._data = bytes(data)
         self._root: dict[str, Any] = json.loads(self._data)
+        self._found: _lissom.Validation | None = None
+
+    @classmethod
+    def _of(cls, found: _lissom.Validation) -> Validation:
+        """Make a validation with its series."""
+        made = cls(found.data())
+        made._found = found
+        return made
 
     @property
     def torque_left(self) -> float | None:
@@ -38,6 +54,30 @@ class Validation:
     def residuals(self) -> tuple[dict[str, Any], ...]:
         """Residual of each channel, motor first: measured minus predicted motion."""
         return tuple(self.to_dict()["residuals"])
+
+    @functools.cached_property
+    def torque(self) -> tuple[Prediction, ...]:
+        """Logged and predicted torque of each run, averaged with the same window; empty if it is not predicted."""
+        unit, runs = self._series().torque()
+        return tuple(Prediction(name, unit, *arrays) for name, *arrays in runs)
+
+    @functools.cached_property
+    def motion(self) -> Mapping[str, tuple[Prediction, ...]]:
+        """Measured and predicted motion of each run: ``motor`` and the tips by name."""
+        channels = self._series().motion()
+        return MappingProxyType(
+            {channel: tuple(Prediction(name, unit, *arrays) for name, *arrays in runs) for channel, unit, runs in channels}
+        )
+
+    @property
+    def plot(self) -> ValidationPlots:
+        """Plots with matplotlib: ``validation.plot.residual()``."""
+        return ValidationPlots(self)
+
+    def _series(self) -> _lissom.Validation:
+        if self._found is None:
+            raise InputError("this validation has no series: it was unpickled", "validate the result again")
+        return self._found
 
     @functools.cached_property
     def findings(self) -> tuple[Finding, ...]:

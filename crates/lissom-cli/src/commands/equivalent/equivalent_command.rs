@@ -14,7 +14,7 @@ use crate::args::stdout_name::STDOUT;
 use crate::shared::exit_codes::ExitCode;
 use crate::shared::failure::Failure;
 use crate::shared::output_guard;
-use crate::tasks::equivalent_input::Input;
+use crate::tasks::equivalent_input;
 use crate::views::plot_file::Picture;
 use crate::views::{equivalent_table, finding_list, printer};
 
@@ -31,7 +31,7 @@ pub(crate) fn run(args: &EquivalentArgs) -> Result<ExitCode, Failure> {
     let outputs = json_file.into_iter().chain(args.save_arm.as_deref()).chain(pictures);
     output_guard::ready(&outputs.collect::<Vec<_>>())?;
     let beam = args.arm.as_deref().map(beam).transpose()?;
-    let input = Input::read(args)?;
+    let input = equivalent_input::read(args)?;
     known(args, &input.data.names)?;
     let found = equivalent(&input.data, args.modes.map(usize::from));
     let found = match found {
