@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 import pickle
+from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
 
@@ -15,9 +16,12 @@ from lissom._units import unit_of
 
 def test_keys_and_units_are_those_of_the_table(result: lissom.Result) -> None:
     table = result.to_frame()
-    assert list(table["key"]) == list(result.keys()) == list(result)
-    for key, unit in zip(table["key"], table["unit"], strict=True):
-        assert unit_of(key) == unit, key
+    assert list(table.index) == list(result.keys()) == list(result) and table.index.name == "key"
+    for key, unit in table["unit"].items():
+        assert unit_of(str(key)) == unit, key
+    assert table.loc["friction.coulomb_nm", "value"] == result["friction.coulomb_nm"]
+    assert isinstance(result, Mapping) and dict(result) == dict(result.items())
+    assert result.get("friction.nothing") is None and result.get("drive.inertia_kg_m2") in result.values()
     assert result["friction.coulomb_nm"] == result.friction["coulomb_nm"]
     assert "friction.coulomb_nm" in result and len(result) == len(table)
     methods = result["methods.regression.coulomb_nm"]
@@ -144,7 +148,7 @@ def test_refused_estimates_are_none(logs: Any) -> None:
     columns["theta_m"] = np.cumsum(np.full(400, 2e-3))
     result = lissom.identify(lissom.Campaign(columns, **SIGNALS), effort="quick")
     assert result.drive["inertia_kg_m2"] is None
-    frame = result.to_frame().set_index("key")
+    frame = result.to_frame()
     assert frame.loc["drive.inertia_kg_m2", "refused"]
     assert "refused" in repr(result) and "refused" in result._repr_html_()
 

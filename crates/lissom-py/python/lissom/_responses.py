@@ -84,7 +84,7 @@ def equivalent(
             raise InputError("this result has no logs", NO_LOGS)
         return Equivalent(*found.equivalent(modes))
     constant = f"{float(torque_constant)!r} N*m/A" if isinstance(torque_constant, (int, float)) else torque_constant
-    if isinstance(source, Mapping):
+    if isinstance(source, Mapping) and not isinstance(source, Result):
         return Equivalent(*_lissom.equivalent_of_arrays(*_arrays(source, std or {}), constant, modes))
     files = [source] if is_path(source) else list(cast("Sequence[Path]", source))
     if std is not None:

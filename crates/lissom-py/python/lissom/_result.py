@@ -5,7 +5,7 @@ from __future__ import annotations
 import functools
 import json
 import os
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from pathlib import Path as FilePath
 from types import MappingProxyType
 from typing import TYPE_CHECKING, Any, Literal, TypeVar
@@ -19,6 +19,7 @@ from ._errors import InputError, file_error
 from ._estimate import Estimate, estimates, is_estimate
 from ._files import write_whole
 from ._finding import Finding
+from ._frames import parameters_frame, payloads_frame
 from ._plots import ResultPlots
 from ._tables import Path
 from ._units import unit_of
@@ -35,11 +36,12 @@ if TYPE_CHECKING:
 NO_LOGS = "identify the logs again: a result that was read from a file has no logs"
 
 
-class Result:
+class Result(Mapping[str, "Estimate | None"]):
     """What the logs of a drive say: friction, inertia, modes, responses, and findings.
 
-    A result is immutable; its bytes are those of the file result.json, whose keys it has. An estimate that the logs do not
-    determine is None, and a finding gives the reason.
+    A result is an immutable mapping of keys, as ``friction.coulomb_nm``, to estimates, in the order of the tables. An estimate
+    that the logs do not determine is None, and a finding gives the reason. Its bytes are those of the file result.json; by its
+    keys ``result["methods.regression.coulomb_nm"]`` gives further estimates, which are not listed.
 
     Parameters
     ----------
@@ -137,25 +139,13 @@ class Result:
         InputError
             If no arm was identified, or if the result was read from a file.
         """
-        import pandas as pd
-
         if self._content.found is None:
             raise InputError("this result has no logs", NO_LOGS)
         masses = [float(mass), *(float(other) for other in to)]
         if not all(0 <= one < float("inf") for one in masses):
             raise InputError(f"masses are {masses} kg; they must not be negative")
         text = self._content.found.payload(masses[0], masses[1:], at, tip)
-        content = json.loads(text)
-        rows = []
-        for payload in content["payloads"]:
-            for number, mode in enumerate(payload["modes"], start=1):
-                row = {"mass_kg": payload["mass_kg"], "mode": number}
-                for key, entry in mode.items():
-                    row |= {key: entry and entry["value"], f"{key}_std": entry and entry["std"]}
-                rows.append(row)
-        frame = pd.DataFrame(rows)
-        frame.attrs.update(content)
-        return frame
+        return payloads_frame(json.loads(text))
 
     @property
     def friction(self) -> Mapping[str, Estimate | None]:
@@ -280,7 +270,7 @@ class Result:
         Parameters
         ----------
         key : str
-            A key of `keys`.
+            A key of the result.
 
         Returns
         -------
@@ -291,16 +281,6 @@ class Result:
             if row[0] == key:
                 return tuple(row[4])
         raise KeyError(self._no_key(key))
-
-    def keys(self) -> tuple[str, ...]:
-        """Give the keys of all parameters, in the order of the tables.
-
-        Returns
-        -------
-        tuple of str
-            Keys, as ``friction.coulomb_nm``.
-        """
-        return tuple(self._content.listed)
 
     def __getitem__(self, key: str) -> Estimate | None:
         if key in self._content.listed:
@@ -319,7 +299,7 @@ class Result:
             raise KeyError(f"{key} is no estimate; to_dict() has everything")
         return Estimate._of(value, unit_of(key))
 
-    def __iter__(self) -> Any:
+    def __iter__(self) -> Iterator[str]:
         return iter(self._content.listed)
 
     def __contains__(self, key: object) -> bool:
@@ -345,16 +325,9 @@ class Result:
         Returns
         -------
         pandas.DataFrame
-            A row for each: key, name, value, std, ci_low, ci_high, unit, refused, warnings.
+            A row for each, with its key as index: name, value, std, ci_low, ci_high, unit, refused, warnings.
         """
-        import pandas as pd
-
-        rows = []
-        for key, name, unit, found, warnings in self._content.rows:
-            value, std, (low, high) = found if found is not None else (np.nan, np.nan, (np.nan, np.nan))
-            rows.append((key, name, value, std, low, high, unit, found is None, ", ".join(warnings)))
-        heading = ["key", "name", "value", "std", "ci_low", "ci_high", "unit", "refused", "warnings"]
-        return pd.DataFrame(rows, columns=heading)
+        return parameters_frame(self._content.rows)
 
     def to_control(self, output: str = "motor", kind: Literal["ss", "tf", "frd"] = "ss") -> Any:
         """Make a model of python-control: linear, without Coulomb friction, input the command.
