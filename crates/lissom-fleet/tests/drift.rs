@@ -1,6 +1,6 @@
 //! Which drift is found in rows with known truth: scatter of logs, seasons, machines that scatter more than others, and logs
 //! that are far off.
-#![expect(clippy::unwrap_used, reason = "a test fails by panicking")]
+#![expect(clippy::unwrap_used, clippy::print_stdout, reason = "a test fails by panicking")]
 
 use std::collections::HashSet;
 
@@ -13,7 +13,7 @@ use rand_xoshiro::Xoshiro256PlusPlus;
 use rand_xoshiro::rand_core::{Rng as _, SeedableRng as _};
 
 const MACHINES: usize = 1000;
-const LOGS: usize = 8;
+const LOGS: u32 = 8;
 const DRIFTING: usize = 10;
 const KEY: &str = "friction.coulomb_nm";
 const DAY_US: i64 = 86_400_000_000;
@@ -50,7 +50,7 @@ fn summary(kind: Kind, drifting: usize, seed: u64) -> (FleetSummary, HashSet<Str
         let level = 0.2 * draw.normal(0.1).exp();
         let scatter = if kind == Kind::Unequal { 0.01 * (9f64).powf(draw.uniform()) } else { 0.03 };
         for log in 0..LOGS {
-            let life = log as f64 / (LOGS - 1) as f64;
+            let life = f64::from(log) / f64::from(LOGS - 1);
             let grown = if machine < drifting { 1.0 + 0.3 * life } else { 1.0 };
             let phase = std::f64::consts::TAU * life;
             let season = if kind == Kind::Season { 1.0 + 0.1 * phase.sin() } else { 1.0 };
@@ -59,7 +59,7 @@ fn summary(kind: Kind, drifting: usize, seed: u64) -> (FleetSummary, HashSet<Str
             let std = 0.002 * level * (1.0 + draw.uniform());
             let value =
                 level * grown * season * wild * draw.normal(scatter).exp() + draw.normal(std);
-            let day = 30 * log as i64 + (10.0 * draw.uniform()) as i64;
+            let day = 30 * i64::from(log) + (10.0 * draw.uniform()) as i64;
             rows.push(row(&format!("m{machine}/{log}"), machine, day * DAY_US, (value, std)));
         }
     }
