@@ -33,15 +33,16 @@ pub use effort_name::EffortName;
 pub use fleet_error::FleetError;
 pub use fleet_log::FleetLog;
 pub use fleet_run::{FleetRun, Progress};
-pub use list_logs::{LogPattern, logs_of_paths, logs_of_table};
+pub use lissom_io::fleet::{
+    Distribution, Drift, DriftValue, FailureCount, FindingCount, FleetSummary, Histogram,
+    LogOutlier, MachineOutlier, ParameterSummary,
+};
+pub use list_logs::{ListedLogs, LogPattern, logs_of_paths, logs_of_table};
 pub use log_time::{date, time_us};
 pub use row::{Failure, FleetRow, RowEstimate, RowOutcome, RowResult};
 pub use run_here::run_here;
 pub use settings::{FleetSettings, RETRIES, Refinement, TIME_LIMIT_S};
 pub use store::{FleetTable, MANIFEST, Manifest, PartEntry, Values, open};
-pub use summary::{
-    Distribution, Drift, DriftValue, FailureCount, FindingCount, FleetSummary, Histogram,
-    LogOutlier, MachineOutlier, ParameterSummary, SummaryOptions, summarise,
-};
+pub use summary::{SummaryOptions, summarise};
 pub use version::VERSION;
 pub use work::{Batch, BatchRows, LogWorker, WorkerProgram, serve};

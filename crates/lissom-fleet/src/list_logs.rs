@@ -38,6 +38,11 @@ impl LogPattern {
         Ok(Self { text: pattern.to_owned(), pattern: read })
     }
 
+    /// Whether a path ends like the pattern.
+    fn fits(&self, path: &Path) -> bool {
+        self.pattern.read(&path.display().to_string()).is_some()
+    }
+
     /// Adds what the name of a log says.
     ///
     /// # Errors
@@ -63,9 +68,18 @@ fn time(log: &str, text: String) -> Result<i64, FleetError> {
     time_us(&text).ok_or_else(|| FleetError::Time { log: log.to_owned(), text })
 }
 
-/// The logs below folders, in the order of their names, and files as they are given. Files and folders whose name begins with
-/// a dot are left out below folders, as are links to folders, and what is in `except`. A log that is given twice is one
-/// log.
+/// Logs of paths.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct ListedLogs {
+    /// The logs.
+    pub logs: Vec<FleetLog>,
+    /// Number of files below folders that are left out, because they do not end like the pattern.
+    pub unlike: usize,
+}
+
+/// The logs below folders, in the order of their names, and files as they are given. Below folders, files and folders whose
+/// name begins with a dot are left out, links to folders, what is in `except`, and files that do not end like the pattern. A
+/// log that is given twice is one log.
 ///
 /// # Errors
 /// [`FleetError::Read`] if a folder cannot be read, [`FleetError::NoLogs`] if there are none, and what
@@ -74,12 +88,17 @@ pub fn logs_of_paths(
     paths: &[PathBuf],
     pattern: Option<&LogPattern>,
     except: &[&Path],
-) -> Result<Vec<FleetLog>, FleetError> {
-    let mut files = Vec::new();
+) -> Result<ListedLogs, FleetError> {
+    let (mut files, mut unlike) = (Vec::new(), 0);
     let except: Vec<PathBuf> = except.iter().filter_map(|path| path.canonicalize().ok()).collect();
     for path in paths {
         if path.is_dir() {
-            below(path, &except, &mut files)?;
+            let mut found = Vec::new();
+            below(path, &except, &mut found)?;
+            let all = found.len();
+            found.retain(|file| pattern.is_none_or(|pattern| pattern.fits(file)));
+            unlike += all - found.len();
+            files.append(&mut found);
         } else {
             files.push(path.clone());
         }
@@ -102,7 +121,7 @@ pub fn logs_of_paths(
         log.file = file.to_str().is_none().then_some(file);
         logs.push(log);
     }
-    Ok(logs)
+    Ok(ListedLogs { logs, unlike })
 }
 
 fn below(folder: &Path, except: &[PathBuf], files: &mut Vec<PathBuf>) -> Result<(), FleetError> {
@@ -190,20 +209,22 @@ mod tests {
         fs::write(folder.path().join("m1/.hidden"), "").unwrap();
         let pattern = LogPattern::new("{machine}/{time}.csv").unwrap();
         let paths = [folder.path().to_owned(), folder.path().join("m1/2026-01-02.csv")];
-        let logs = logs_of_paths(&paths, Some(&pattern), &[]).unwrap();
+        let logs = logs_of_paths(&paths, Some(&pattern), &[]).unwrap().logs;
         let machines: Vec<_> = logs.iter().map(|log| log.machine.as_deref().unwrap()).collect();
         assert_eq!(machines, ["m1", "m1", "m2"]);
         assert!(logs[0].time_us < logs[1].time_us && logs[1].time_us < logs[2].time_us);
 
         fs::write(folder.path().join("m1/notes.txt"), "").unwrap();
-        let error = logs_of_paths(&paths, Some(&pattern), &[]).unwrap_err().to_string();
+        let found = logs_of_paths(&paths, Some(&pattern), &[]).unwrap();
+        assert_eq!((found.logs.len(), found.unlike), (3, 1));
+        let notes = folder.path().join("m1/notes.txt");
+        let error = logs_of_paths(&[notes.clone()], Some(&pattern), &[]).unwrap_err().to_string();
         assert!(
             error.ends_with("notes.txt: the path does not end like \"{machine}/{time}.csv\""),
             "{error}"
         );
 
-        let notes = folder.path().join("m1/notes.txt");
-        assert_eq!(logs_of_paths(&paths, Some(&pattern), &[&notes]).unwrap().len(), 3);
+        assert_eq!(logs_of_paths(&paths, None, &[&notes]).unwrap().logs.len(), 3);
 
         let table = "log,machine,time\nm1/2026-01-01.csv,A,2026-01-01\n\"b,1.csv\",,\n";
         let logs = logs_of_table("table", table.as_bytes(), folder.path()).unwrap();

@@ -11,6 +11,7 @@
 //! - [`PlannedFile`] is a plan as JSON, [`RigFile`] describes a virtual campaign, [`DemoFile`] and
 //!   [`FiguresFile`] are estimates compared with known values.
 //! - [`inspect`](mod@inspect) describes a log of which nothing is known yet, and makes a `campaign.toml` of it.
+//! - [`fleet`] has the summary of the results of many machines.
 //! - [`export`] writes models for other programs.
 //! - [`limits`] checks parameters against limits.
 //! - [`units`] reads quantities such as `"2.184 lbf*in/A"`.
@@ -24,6 +25,7 @@ pub mod comparison;
 mod config;
 mod excerpt;
 pub mod export;
+pub mod fleet;
 pub mod inspect;
 mod io_error;
 pub mod limits;

@@ -5,6 +5,7 @@ use schemars::transform::{Transform, transform_subschemas};
 use schemars::{JsonSchema, Schema};
 use serde_json::Value;
 
+use crate::fleet::FleetSummary;
 use crate::inspect::InspectionFile;
 use crate::limits::CheckFile;
 use crate::model::ModelFile;
@@ -23,6 +24,10 @@ pub fn schema_files() -> Vec<(&'static str, String)> {
         ("model.schema.json", text::<ModelFile>("model.json of lissom model")),
         ("equivalent.schema.json", text::<EquivalentFile>("Output of lissom equivalent --json")),
         ("compare.schema.json", text::<ComparedFile>("Output of lissom compare --json")),
+        (
+            "fleet-summary.schema.json",
+            text::<FleetSummary>("Output of lissom fleet summary --json"),
+        ),
         ("payload.schema.json", text::<PayloadFile>("Output of lissom payload --json")),
         ("planned.schema.json", text::<PlannedFile>("Output of lissom plan --json")),
         ("rig.schema.json", text::<RigFile>("rig.json of lissom rig")),

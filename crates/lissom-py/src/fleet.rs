@@ -209,17 +209,23 @@ fn as_bytes<'py>(py: Python<'py>, row: &lissom_fleet::FleetRow) -> PyResult<Boun
     Ok(PyBytes::new(py, &serde_json::to_vec(row).map_err(|_| internal_error())?))
 }
 
-/// Logs of files and folders, as JSON.
+/// Logs of files and folders, JSON, with what their names say by a pattern; files below folders that do not end like it are
+/// left out.
 #[pyfunction]
+#[pyo3(signature = (paths, except_, pattern=None))]
 pub(crate) fn fleet_logs(
     py: Python<'_>,
     paths: Vec<PathBuf>,
     except_: Vec<PathBuf>,
+    pattern: Option<&str>,
 ) -> PyResult<String> {
     let except: Vec<&Path> = except_.iter().map(PathBuf::as_path).collect();
-    let logs = py.detach(|| logs_of_paths(&paths, None, &except));
-    let logs = logs.map_err(|error| fleet_raised(py, &error))?;
-    serde_json::to_string(&logs).map_err(|_| internal_error())
+    let list = || {
+        let pattern = pattern.map(LogPattern::new).transpose()?;
+        logs_of_paths(&paths, pattern.as_ref(), &except)
+    };
+    let found = py.detach(list).map_err(|error| fleet_raised(py, &error))?;
+    serde_json::to_string(&found.logs).map_err(|_| internal_error())
 }
 
 /// Logs, JSON, with what their names say by a pattern.

@@ -20,7 +20,7 @@ use crate::shared::exit_codes::ExitCode;
 use crate::shared::failure::Failure;
 use crate::shared::interrupted::stopped_by_ctrl_c;
 use crate::shared::progress_bar::FleetBar;
-use crate::views::fleet_run_lines;
+use crate::views::{fleet_run_lines, printer};
 
 /// `own` is how this program is started: program and arguments, without those of the command.
 pub(crate) fn run(args: &FleetArgs, own: &[OsString]) -> Result<ExitCode, Failure> {
@@ -94,7 +94,11 @@ fn effort_name(effort: EffortArg) -> EffortName {
 fn logs(args: &FleetRunArgs, like: &Path, out: &Path) -> Result<Vec<FleetLog>, Failure> {
     let pattern = args.pattern.as_deref().map(LogPattern::new).transpose()?;
     let Some(table) = &args.table else {
-        return Ok(logs_of_paths(&args.logs, pattern.as_ref(), &[like, out])?);
+        let found = logs_of_paths(&args.logs, pattern.as_ref(), &[like, out])?;
+        if found.unlike > 0 {
+            printer::note(&format!("{} files do not end like the pattern: left out", found.unlike));
+        }
+        return Ok(found.logs);
     };
     let failed = |source| FleetError::Read { path: table.clone(), source };
     let file = BufReader::new(File::open(table).map_err(failed)?);

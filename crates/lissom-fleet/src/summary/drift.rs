@@ -1,6 +1,6 @@
 //! Machines whose parameter changes over time, more than that of the others.
 
-use serde::{Deserialize, Serialize};
+use lissom_io::fleet::{Drift, DriftValue};
 
 use super::chances::{discoveries, normal_deviation, tails};
 use super::machines::{LogValue, Machine};
@@ -8,43 +8,6 @@ use super::robust::scale;
 
 /// From so many machines on, the scatter of their slopes says what is normal.
 const MACHINES_LEAST: usize = 20;
-
-/// A parameter of a machine that changes over time. All values are without what all machines do, see
-/// [`ParameterSummary::common_change`](super::ParameterSummary::common_change).
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
-pub struct Drift {
-    /// The machine.
-    pub machine: String,
-    /// Its values, in the order of time.
-    pub values: Vec<DriftValue>,
-    /// Value of the line in the middle.
-    pub level: f64,
-    /// Value of the line at the first log.
-    pub first: f64,
-    /// Change from the first log to the last.
-    pub change: f64,
-    /// Its standard error.
-    pub change_std: f64,
-    /// The change over the level; none if the level is zero.
-    pub relative_change: Option<f64>,
-    /// The change over its standard error, and over the spread of this ratio of all machines if that is larger than one.
-    pub z: f64,
-}
-
-/// A value of a machine that drifts.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
-pub struct DriftValue {
-    /// The log.
-    pub log: String,
-    /// Its time, in microseconds since 1970 UTC.
-    pub time_us: i64,
-    /// The value, without what all machines do.
-    pub value: f64,
-    /// Its standard error.
-    pub std: f64,
-}
 
 /// Machines that drift, the largest changes first.
 pub(super) fn drifts(machines: &[Machine<'_>], rate: f64) -> Vec<Drift> {

@@ -1,6 +1,6 @@
 //! How many values are in each interval.
 
-use serde::{Deserialize, Serialize};
+use lissom_io::fleet::Histogram;
 
 use super::robust::quantile;
 
@@ -9,48 +9,30 @@ const TAILS: f64 = 3.0;
 /// Largest number of intervals.
 const MOST: f64 = 60.0;
 
-/// How many values are in each of several intervals of the same width.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
-pub struct Histogram {
-    /// Begin of the first interval.
-    pub from: f64,
-    /// Width of each interval.
-    pub width: f64,
-    /// Number of values in each interval.
-    pub counts: Vec<usize>,
-    /// Number of values below the first interval.
-    pub below: usize,
-    /// Number of values above the last interval.
-    pub above: usize,
-}
-
-impl Histogram {
-    /// Counts ascending values, with the width of Freedman and Diaconis (Z. Wahrscheinlichkeitstheorie verw. Geb. 57, 1981):
-    /// 2·IQR/n^(1/3). None without values.
-    pub(super) fn of(ascending: &[f64]) -> Option<Self> {
-        let (low, high) = (quantile(ascending, 0.25)?, quantile(ascending, 0.75)?);
-        let reach = TAILS * (high - low);
-        let from = ascending.first()?.max(low - reach);
-        let to = ascending.last()?.min(high + reach);
-        let wanted = 2.0 * (high - low) / (ascending.len() as f64).cbrt();
-        let number = ((to - from) / wanted).ceil();
-        let number = if number.is_finite() { number.clamp(1.0, MOST) } else { 1.0 };
-        let width = (to - from) / number;
-        let (mut counts, mut below, mut above) = (vec![0; number as usize], 0, 0);
-        for value in ascending {
-            if *value < from {
-                below += 1;
-            } else if *value > to {
-                above += 1;
-            } else {
-                let place = if width > 0.0 { ((value - from) / width) as usize } else { 0 };
-                let last = counts.len() - 1;
-                counts[place.min(last)] += 1;
-            }
+/// Counts ascending values, with the width of Freedman and Diaconis (Z. Wahrscheinlichkeitstheorie verw. Geb. 57, 1981):
+/// 2·IQR/n^(1/3). None without values.
+pub(super) fn histogram(ascending: &[f64]) -> Option<Histogram> {
+    let (low, high) = (quantile(ascending, 0.25)?, quantile(ascending, 0.75)?);
+    let reach = TAILS * (high - low);
+    let from = ascending.first()?.max(low - reach);
+    let to = ascending.last()?.min(high + reach);
+    let wanted = 2.0 * (high - low) / (ascending.len() as f64).cbrt();
+    let number = ((to - from) / wanted).ceil();
+    let number = if number.is_finite() { number.clamp(1.0, MOST) } else { 1.0 };
+    let width = (to - from) / number;
+    let (mut counts, mut below, mut above) = (vec![0; number as usize], 0, 0);
+    for value in ascending {
+        if *value < from {
+            below += 1;
+        } else if *value > to {
+            above += 1;
+        } else {
+            let place = if width > 0.0 { ((value - from) / width) as usize } else { 0 };
+            let last = counts.len() - 1;
+            counts[place.min(last)] += 1;
         }
-        Some(Self { from, width, counts, below, above })
     }
+    Some(Histogram { from, width, counts, below, above })
 }
 
 #[cfg(test)]
@@ -61,12 +43,12 @@ mod tests {
     fn every_value_is_counted_once() {
         let mut values: Vec<f64> = (0..1000).map(|k| f64::from(k) / 1000.0).collect();
         values.extend([50.0, 60.0]);
-        let found = Histogram::of(&values).unwrap();
+        let found = histogram(&values).unwrap();
         assert_eq!(found.counts.iter().sum::<usize>(), 1000);
         assert_eq!((found.below, found.above), (0, 2));
         assert!(found.counts.len() > 5 && found.counts.len() <= 60, "{found:?}");
-        let equal = Histogram::of(&[2.0; 5]).unwrap();
+        let equal = histogram(&[2.0; 5]).unwrap();
         assert_eq!(equal.counts, [5]);
-        assert_eq!(Histogram::of(&[]), None);
+        assert_eq!(histogram(&[]), None);
     }
 }

@@ -5,17 +5,11 @@ mod common_course;
 mod common_scatter;
 mod distribution;
 mod drift;
-mod fleet_summary;
 mod histogram;
 mod line_fit;
 mod machines;
 mod outliers;
 mod robust;
+mod summarise;
 
-pub use distribution::Distribution;
-pub use drift::{Drift, DriftValue};
-pub use fleet_summary::{
-    FailureCount, FindingCount, FleetSummary, ParameterSummary, SummaryOptions, summarise,
-};
-pub use histogram::Histogram;
-pub use outliers::{LogOutlier, MachineOutlier};
+pub use summarise::{SummaryOptions, summarise};

@@ -1,6 +1,6 @@
 //! Logs that differ from the other logs of their machine, and machines that differ from the others.
 
-use serde::{Deserialize, Serialize};
+use lissom_io::fleet::{LogOutlier, MachineOutlier};
 
 use super::chances::{discoveries, normal_deviation, tails};
 use super::machines::Machine;
@@ -12,40 +12,6 @@ const LEAST: f64 = 3.5;
 const COMPARED_LEAST: usize = 10;
 /// Largest deviation that is told from larger ones: JSON has no infinity.
 const MOST: f64 = 1e6;
-
-/// A log that differs.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
-pub struct LogOutlier {
-    /// The log.
-    pub log: String,
-    /// Its machine; if it is known, the log is compared with the other logs of the machine, otherwise with all logs.
-    pub machine: Option<String>,
-    /// Its value, without what all machines do over time.
-    pub value: f64,
-    /// Its standard error.
-    pub std: f64,
-    /// The value that the others let expect.
-    pub expected: f64,
-    /// The deviation, in scales of the others.
-    pub z: f64,
-}
-
-/// A machine that differs.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
-pub struct MachineOutlier {
-    /// The machine.
-    pub machine: String,
-    /// Number of its logs.
-    pub logs: usize,
-    /// Its value, in the middle of its logs.
-    pub value: f64,
-    /// Median of all machines.
-    pub expected: f64,
-    /// The deviation, in scales of the machines on this side of the median.
-    pub z: f64,
-}
 
 /// Logs and machines that differ, the largest deviations first. With `rate`, of those found this share is expected to be
 /// chance.

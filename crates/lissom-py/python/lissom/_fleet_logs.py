@@ -68,7 +68,7 @@ class FleetLogs:
             entries = []
             for log in [logs] if is_path(logs) else _items(logs):
                 if is_path(log):
-                    entries += _of_path(path_text(log), except_, options)
+                    entries += _of_path(path_text(log), except_, options, pattern)
                 else:
                     name = f"log {len(entries) + 1}"
                     tables[name] = log
@@ -135,7 +135,9 @@ def _entry(name: str, file: str | None = None) -> dict[str, Any]:
     return {"log": name, "file": file, "machine": None, "time_us": None}
 
 
-def _of_path(path: str, except_: Sequence[str], options: Mapping[str, Any]) -> list[dict[str, Any]]:
+def _of_path(
+    path: str, except_: Sequence[str], options: Mapping[str, Any], pattern: str | None
+) -> list[dict[str, Any]]:
     if is_address(path):
         return [_entry(address) for address in _of_address(path, options)]
     if any(character in path for character in _GLOB) and not os.path.exists(path):
@@ -146,7 +148,7 @@ def _of_path(path: str, except_: Sequence[str], options: Mapping[str, Any]) -> l
         return list(json.loads(_lissom.fleet_logs(files, list(except_)))) if files else []
     if not os.path.exists(path) and "::" not in path:
         raise FileError(f"{path}: there is no such file or folder", "check the name")
-    return list(json.loads(_lissom.fleet_logs([path], list(except_))))
+    return list(json.loads(_lissom.fleet_logs([path], list(except_), pattern)))
 
 
 def _of_address(address: str, options: Mapping[str, Any]) -> list[str]:

@@ -2,12 +2,12 @@
 
 use std::collections::HashMap;
 
-use serde::{Deserialize, Serialize};
+use lissom_io::fleet::{FailureCount, FindingCount, FleetSummary, ParameterSummary};
 
-use super::distribution::Distribution;
-use super::drift::{Drift, drifts};
+use super::distribution::distribution;
+use super::drift::drifts;
 use super::machines::{LogValue, machines};
-use super::outliers::{LogOutlier, MachineOutlier, outliers};
+use super::outliers::outliers;
 use crate::fleet_error::FleetError;
 use crate::store::{FleetTable, LOG, MACHINE, STD, TIME, Values};
 use crate::version::VERSION;
@@ -23,73 +23,6 @@ impl Default for SummaryOptions {
     fn default() -> Self {
         Self { false_share: 0.05 }
     }
-}
-
-/// Summary of a fleet.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
-pub struct FleetSummary {
-    /// Version of lissom that made the summary.
-    pub version: String,
-    /// Number of rows.
-    pub rows: usize,
-    /// Number of rows with a result.
-    pub identified: usize,
-    /// Rows without a result, by their kind.
-    pub failures: Vec<FailureCount>,
-    /// Findings, the most frequent ones first.
-    pub findings: Vec<FindingCount>,
-    /// Number of machines that are known.
-    pub machines: usize,
-    /// First and last time that is known, in microseconds since 1970 UTC.
-    pub span_us: Option<(i64, i64)>,
-    /// The parameters, in the order of their columns.
-    pub parameters: Vec<ParameterSummary>,
-}
-
-/// How many rows have a kind of failure.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
-pub struct FailureCount {
-    /// The kind.
-    pub failure: String,
-    /// Number of rows.
-    pub rows: usize,
-    /// The first log with it.
-    pub log: String,
-    /// What happened there.
-    pub message: String,
-}
-
-/// How many rows have a finding.
-#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
-#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
-pub struct FindingCount {
-    /// Its code.
-    pub code: String,
-    /// Its severity: `refusal`, `warning` or `info`.
-    pub severity: String,
-    /// Number of rows.
-    pub rows: usize,
-}
-
-/// Summary of a parameter.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
-pub struct ParameterSummary {
-    /// Its key in `result.json`.
-    pub key: String,
-    /// Its distribution.
-    pub distribution: Distribution,
-    /// Relative change of what all machines do, from the first log to the last. It is divided out before machines and logs are
-    /// compared. None with less than 20 machines that have three or more logs with known times.
-    pub common_change: Option<f64>,
-    /// Machines that drift, the largest changes first.
-    pub drifts: Vec<Drift>,
-    /// Machines that differ from the others, the largest deviations first.
-    pub outlying_machines: Vec<MachineOutlier>,
-    /// Logs that differ from the other logs of their machine, or from all logs if the machine is unknown.
-    pub outlying_logs: Vec<LogOutlier>,
 }
 
 /// Summarises the rows of a fleet.
@@ -146,7 +79,7 @@ fn parameter(
 ) -> Option<ParameterSummary> {
     let values: Vec<f64> = given.iter().map(|v| v.value).collect();
     let stds: Vec<f64> = given.iter().map(|v| v.std).collect();
-    let distribution = Distribution::of(&values, &stds, identified)?;
+    let distribution = distribution(&values, &stds, identified)?;
     let machines = machines(given);
     let drifts = drifts(&machines.all, options.false_share);
     let (outlying_logs, outlying_machines) = outliers(&machines.all, options.false_share);
