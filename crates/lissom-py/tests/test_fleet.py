@@ -234,12 +234,16 @@ def test_tables_in_memory(folder: Path, tmp_path: Path, logs: dict[str, dict[str
     fleet = lissom.fleet(tables, like, out=tmp_path / "out")
     assert sorted(fleet["log"]) == sorted(tables) and fleet.failed == 0
     assert np.allclose(fleet["friction.coulomb_nm"], COULOMB, rtol=0.05)
-    bad = {**tables, "object": {"t": np.array([None, "x"], dtype=object), "i": [1, 2], "theta_m": [1, 2]}}
-    with pytest.raises(lissom.InputError, match="object"):
+    bad = {**tables, "complex": {"t": np.array([1j, 2]), "i": [1, 2], "theta_m": [1, 2]}}
+    with pytest.raises(lissom.InputError, match='complex: column "t" is complex'):
         lissom.fleet(bad, like, out=tmp_path / "bad")
-    missing = {"short": {"t": [0.0, 1.0], "i": [np.nan, 1.0], "theta_m": [0.0, 1.0]}, **tables}
-    fleet = lissom.fleet(missing, like, out=tmp_path / "missing")
-    assert dict(zip(fleet["log"], fleet["failure"], strict=True)) == {"short": "input", **dict.fromkeys(tables, "")}
+    odd = {
+        "short": {"t": [0.0, 1.0], "i": [np.nan, 1.0], "theta_m": [0.0, 1.0]},
+        "words": {"t": np.array([None, "x"], dtype=object), "i": [1, 2], "theta_m": [1, 2]},
+    }
+    fleet = lissom.fleet({**odd, **tables}, like, out=tmp_path / "odd")
+    found = dict(zip(fleet["log"], fleet["failure"], strict=True))
+    assert found == {**dict.fromkeys(odd, "input"), **dict.fromkeys(tables, "")}
 
 
 def test_tables_of_logs(folder: Path, tmp_path: Path) -> None:
@@ -258,7 +262,7 @@ def test_tables_of_logs(folder: Path, tmp_path: Path) -> None:
         ({"log": [str(log)], "machine": ["a", "b"]}, "`machine` has 2 rows"),
         ([], "there are no logs"),
         (3, "a list of logs"),
-        (["no/such/log.csv"], "no such file"),
+        ("no/such/log.csv", "no such file"),
         ("no/*.csv", "no file has this form"),
     ):
         with pytest.raises(lissom.LissomError, match=problem):

@@ -391,7 +391,7 @@ class Campaign:
             try:
                 return str(self._path.resolve()), self._path.read_text(encoding="utf-8-sig")
             except OSError as error:
-                raise FileError(f"{self._path}: {error.strerror}", "check the name") from error
+                raise file_error(self._path, error, "check the name") from error
         if self._described is not None:
             return "campaign", self._described
         return "campaign", campaign_text(self._tables, [], lambda file: str(FilePath(file).resolve()))

@@ -66,9 +66,10 @@ class FleetLogs:
             entries = [_entry(str(name), path_text(log) if is_path(log) else None) for name, log in logs.items()]
         else:
             entries = []
-            for log in [logs] if is_path(logs) else _items(logs):
+            alone = is_path(logs)
+            for log in [logs] if alone else _items(logs):
                 if is_path(log):
-                    entries += _of_path(path_text(log), except_, options, pattern)
+                    entries += _of_path(path_text(log), except_, options, pattern, alone)
                 else:
                     name = f"log {len(entries) + 1}"
                     tables[name] = log
@@ -136,16 +137,20 @@ def _entry(name: str, file: str | None = None) -> dict[str, Any]:
 
 
 def _of_path(
-    path: str, except_: Sequence[str], options: Mapping[str, Any], pattern: str | None
+    path: str, except_: Sequence[str], options: Mapping[str, Any], pattern: str | None, alone: bool
 ) -> list[dict[str, Any]]:
+    """Give the logs of a path. One in a list that is no folder here is a log as it stands: a worker may have it."""
+    is_glob = any(character in path for character in _GLOB) and not os.path.exists(path)
+    if not alone and not is_glob and not os.path.isdir(path):
+        return [_entry(path)]
     if is_address(path):
         return [_entry(address) for address in _of_address(path, options)]
-    if any(character in path for character in _GLOB) and not os.path.exists(path):
+    if is_glob:
         found = sorted(glob.glob(path, recursive=True))
         if not found:
             raise FileError(f"{path}: no file has this form", "check the folder")
         files = [file for file in found if os.path.isfile(file)]
-        return list(json.loads(_lissom.fleet_logs(files, list(except_)))) if files else []
+        return [_entry(file) for file in files]
     if not os.path.exists(path) and "::" not in path:
         raise FileError(f"{path}: there is no such file or folder", "check the name")
     return list(json.loads(_lissom.fleet_logs([path], list(except_), pattern)))
@@ -211,5 +216,7 @@ def _microseconds(time: Any, row: int) -> int:
         return round(zoned.timestamp() * 1e6)
     found = _lissom.fleet_time(str(time))
     if found is None:
-        raise InputError(f"table of logs, row {row}: {time!r} is not a time", "give dates, or texts as 2026-11-27T08:15:00Z")
+        raise InputError(
+            f"table of logs, row {row}: {str(time)!r} is not a time", "give dates, or texts as 2026-11-27T08:15:00Z"
+        )
     return found

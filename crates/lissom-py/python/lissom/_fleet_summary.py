@@ -19,7 +19,7 @@ _EPOCH = datetime(1970, 1, 1, tzinfo=timezone.utc)
 class Drift:
     """A parameter of a machine that changes over time.
 
-    Attributes
+    Parameters
     ----------
     machine : str
         The machine.
@@ -59,7 +59,7 @@ class Drift:
 class Outlier:
     """A log that differs from the other logs of its machine, or a machine that differs from the others.
 
-    Attributes
+    Parameters
     ----------
     name : str
         The log, or the machine.
@@ -84,7 +84,7 @@ class Outlier:
 class ParameterSummary:
     """Summary of a parameter.
 
-    Attributes
+    Parameters
     ----------
     key : str
         Its key, with its unit.
