@@ -6,6 +6,7 @@ use std::io::Read;
 use std::path::{Path, PathBuf};
 
 use lissom_io::limits::PathPattern;
+use lissom_io::log::LogPath;
 
 use crate::fleet_error::FleetError;
 use crate::fleet_log::FleetLog;
@@ -82,7 +83,7 @@ pub struct ListedLogs {
 /// log that is given twice is one log.
 ///
 /// # Errors
-/// [`FleetError::Read`] if a folder cannot be read, [`FleetError::NoLogs`] if there are none, and what
+/// [`FleetError::Read`] if a path does not exist or a folder cannot be read, [`FleetError::NoLogs`] if there are none, and what
 /// [`LogPattern::read`] reports.
 pub fn logs_of_paths(
     paths: &[PathBuf],
@@ -99,8 +100,11 @@ pub fn logs_of_paths(
             found.retain(|file| pattern.is_none_or(|pattern| pattern.fits(file)));
             unlike += all - found.len();
             files.append(&mut found);
-        } else {
+        } else if path.exists() || LogPath::of(path).group.is_some() {
             files.push(path.clone());
+        } else {
+            let source = std::io::ErrorKind::NotFound.into();
+            return Err(FleetError::Read { path: path.clone(), source });
         }
     }
     if files.is_empty() {

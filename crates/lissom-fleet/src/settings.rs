@@ -36,7 +36,7 @@ pub struct FleetSettings {
 pub struct Refinement {
     /// Its effort.
     pub effort: EffortName,
-    /// Codes of the findings that ask for it; if empty, every warning and refusal.
+    /// Codes of the findings that ask for it; if empty, every refusal.
     pub codes: Vec<String>,
 }
 
@@ -48,7 +48,7 @@ pub const RETRIES: u32 = 2;
 const SEARCH_SHARE: f64 = 0.8;
 
 impl FleetSettings {
-    /// Quick for every log, normal effort where a warning or refusal asks for it.
+    /// Quick for every log, normal effort where an estimate is refused.
     pub fn new(campaign_name: impl Into<PathBuf>, campaign: impl Into<String>) -> Self {
         Self {
             version: VERSION.to_owned(),

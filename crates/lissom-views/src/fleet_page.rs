@@ -1,5 +1,7 @@
 //! The page of a fleet: distributions, outliers and drift.
 
+use std::collections::HashSet;
+
 use lissom_fleet::{
     Drift, DriftValue, FailureCount, FindingCount, FleetSummary, LogOutlier, MachineOutlier,
     ParameterSummary, date,
@@ -24,8 +26,9 @@ pub fn page(title: &str, summary: &FleetSummary) -> String {
         page = page.paragraph(&line);
     }
     page = page.heading("Parameters").table(&parameter_table(summary));
+    let mut plotted = HashSet::new();
     for parameter in &summary.parameters {
-        page = one_parameter(page, parameter);
+        page = one_parameter(page, parameter, &mut plotted);
     }
     if !summary.failures.is_empty() {
         page = page.heading("Logs without a result").table(&failure_table(&summary.failures));
@@ -40,7 +43,7 @@ pub fn page(title: &str, summary: &FleetSummary) -> String {
 /// What the fleet is, in a sentence.
 pub fn in_words(summary: &FleetSummary) -> String {
     let mut words =
-        vec![format!("{} of {} identified", counted(summary.identified, "log"), summary.rows)];
+        vec![format!("{} of {} identified", summary.identified, counted(summary.rows, "log"))];
     if summary.machines > 0 {
         words.push(format!("of {}", counted(summary.machines, "machine")));
     }
@@ -113,7 +116,12 @@ pub fn parameter_table(summary: &FleetSummary) -> Table {
     table
 }
 
-fn one_parameter(page: Page, parameter: &ParameterSummary) -> Page {
+/// Adds a parameter. Machines in `plotted` have a plot already: often several parameters of a machine drift together.
+fn one_parameter<'a>(
+    page: Page,
+    parameter: &'a ParameterSummary,
+    plotted: &mut HashSet<&'a str>,
+) -> Page {
     let d = &parameter.distribution;
     let mut words = vec![format!(
         "{}, median {}, half of them between {} and {}.",
@@ -135,9 +143,10 @@ fn one_parameter(page: Page, parameter: &ParameterSummary) -> Page {
     page = page.figure(&histogram(parameter), &caption(parameter));
     if !parameter.drifts.is_empty() {
         page = page.table(&drift_table(&parameter.drifts));
-        for drift in parameter.drifts.iter().take(DRIFTS_MOST) {
-            let text = format!("{}: bars are standard errors of the estimates.", drift.machine);
-            page = page.figure(&drift_plot(&parameter.key, drift), &text);
+        let new = parameter.drifts.iter().filter(|drift| plotted.insert(&drift.machine));
+        for drift in new.take(DRIFTS_MOST) {
+            let text = "Values without what all machines do; bars are standard errors.";
+            page = page.figure(&drift_plot(&parameter.key, drift), text);
         }
     }
     if !parameter.outlying_machines.is_empty() {

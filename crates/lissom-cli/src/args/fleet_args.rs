@@ -56,7 +56,7 @@ pub(crate) struct FleetRunArgs {
     /// Effort for logs whose findings ask for it; "none" for no log
     #[arg(long, value_name = "EFFORT", default_value = "normal", value_parser = ["none", "normal", "thorough"], hide_possible_values = true)]
     pub(crate) refine: String,
-    /// Finding that asks for it, repeatable [default: every warning and refusal]
+    /// Finding that asks for it, repeatable [default: every refusal]
     #[arg(long, value_name = "CODE")]
     pub(crate) refine_on: Vec<String>,
     /// Time for a log; its process is then ended
@@ -100,7 +100,7 @@ Examples:
   lissom fleet logs --like campaign.toml --out fleet --pattern \"{machine}/{time}.csv\"
   lissom fleet --table logs.csv --like campaign.toml --out fleet
   lissom fleet summary fleet --report page.html
-Each log is identified quickly; where a warning or refusal asks for it, again with --refine EFFORT.
+Each log is identified quickly; where an estimate is refused, again with --refine EFFORT.
 What is wrong with one log is in its row. Rows are in Parquet files, which manifest.json lists.";
 
 const SUMMARY_HELP: &str = "\

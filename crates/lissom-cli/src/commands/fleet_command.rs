@@ -96,7 +96,10 @@ fn logs(args: &FleetRunArgs, like: &Path, out: &Path) -> Result<Vec<FleetLog>, F
     let Some(table) = &args.table else {
         let found = logs_of_paths(&args.logs, pattern.as_ref(), &[like, out])?;
         if found.unlike > 0 {
-            printer::note(&format!("{} files do not end like the pattern: left out", found.unlike));
+            printer::note(&format!(
+                "files that do not end like the pattern, left out: {}",
+                found.unlike
+            ));
         }
         return Ok(found.logs);
     };

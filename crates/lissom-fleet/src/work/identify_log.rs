@@ -74,11 +74,11 @@ fn outcome(settings: &FleetSettings, log: &FleetLog, started: Instant) -> RowOut
 
 /// Whether a finding asks for more effort.
 fn is_asked(more: &Refinement, result: &RowResult) -> bool {
-    let mut codes = result.refusals.iter().chain(&result.warnings);
     if more.codes.is_empty() {
-        return codes.next().is_some();
+        return !result.refusals.is_empty();
     }
-    codes.chain(&result.infos).any(|code| more.codes.contains(code))
+    let mut codes = result.refusals.iter().chain(&result.warnings).chain(&result.infos);
+    codes.any(|code| more.codes.contains(code))
 }
 
 fn identified(

@@ -69,7 +69,7 @@ def fleet(
     refine : {'normal', 'thorough'}, optional
         Effort for logs whose findings ask for it; None for no log.
     refine_on : sequence of str
-        Codes of findings that ask for it; every warning and refusal if empty.
+        Codes of findings that ask for it; every refusal if empty.
     time_limit : float
         Time for one log [s]. A search ends with its best result after 80 % of it; a process that needs longer is ended.
     retries : int
