@@ -222,7 +222,9 @@ mod tests {
         let found = logs_of_paths(&paths, Some(&pattern), &[]).unwrap();
         assert_eq!((found.logs.len(), found.unlike), (3, 1));
         let notes = folder.path().join("m1/notes.txt");
-        let error = logs_of_paths(&[notes.clone()], Some(&pattern), &[]).unwrap_err().to_string();
+        let error = logs_of_paths(std::slice::from_ref(&notes), Some(&pattern), &[])
+            .unwrap_err()
+            .to_string();
         assert!(
             error.ends_with("notes.txt: the path does not end like \"{machine}/{time}.csv\""),
             "{error}"
