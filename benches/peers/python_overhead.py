@@ -1,4 +1,4 @@
-"""What Python adds to Rust: noisy simulations with an estimate each, and one campaign of files.
+"""What Python adds to Rust: noisy simulations with an estimate each, one campaign of files, and large arrays.
 
     python benches/peers/python_overhead.py [CAMPAIGNS]
 
@@ -14,10 +14,12 @@ import time
 from pathlib import Path
 
 import lissom
+import numpy as np
 
 ROOT = Path(__file__).parents[2]
 CAMPAIGNS = int(sys.argv[1]) if len(sys.argv) > 1 else 300
 REPETITIONS = 5
+ROWS = 2_000_000
 
 ARM = {
     "beam": {"rigid": True},
@@ -65,8 +67,29 @@ def rust_campaigns() -> float:
     return float(output.split()[-2])
 
 
+def arrays() -> None:
+    """Prints what a campaign of large arrays costs, compared with a copy of them and with its identification."""
+    t = 1e-3 * np.arange(ROWS)
+    columns = {"t": t, "i": np.sin(0.9 * t) + 0.1 * np.sin(7 * t), "q": np.sin(0.5 * t)}
+    times = []
+    for _ in range(REPETITIONS):
+        begin = time.perf_counter()
+        copies = [values.copy() for values in columns.values()]
+        copied = time.perf_counter()
+        campaign = lissom.Campaign(columns, time="t:s", motor="q:rad", current="i:A")
+        read = time.perf_counter()
+        lissom.identify(campaign, effort="quick")
+        times.append((copied - begin, read - copied, time.perf_counter() - read))
+        del copies
+    copy, read, quick = (statistics.median(each) for each in zip(*times))
+    call = read + quick
+    print(f"{ROWS} rows: copy {copy:.4f} s, checks and copy {read:.3f} s, quick {quick:.2f} s; ", end="")
+    print(f"of the call {100 * copy / call:.1f} % and {100 * read / call:.1f} %")
+
+
 def main() -> None:
     """Prints the comparison."""
+    arrays()
     build = ["cargo", "build", "--release", "-p", "lissom", "--example", "6_scatter"]
     subprocess.run(build, check=True, cwd=ROOT)
     pairs = [(python_campaigns(), rust_campaigns()) for _ in range(REPETITIONS)]

@@ -22,6 +22,8 @@ pub(crate) enum Failure {
     Links { broken: Vec<String> },
     /// An example that is too long.
     Long { path: String, lines: usize, most: usize },
+    /// A file that is too large to be published.
+    Large { path: String, bytes: u64, most: u64 },
     /// A file or folder of the recipe could not be used.
     File { path: String, source: io::Error },
 }
@@ -42,6 +44,9 @@ impl fmt::Display for Failure {
             }
             Self::Long { path, lines, most } => {
                 write!(f, "{path} has {lines} lines; an example may have at most {most}")
+            }
+            Self::Large { path, bytes, most } => {
+                write!(f, "{path} has {bytes} bytes; it may have at most {most}")
             }
             Self::File { path, source } => write!(f, "cannot use {path}: {source}"),
         }

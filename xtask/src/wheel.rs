@@ -1,48 +1,123 @@
-//! The wheel of the Python package: built, installed into a clean environment, and tested there.
+//! The wheel of the Python package: built as it would be published, installed into clean environments, and tested there.
 
 use std::{
-    fs,
+    env, fs,
     path::{Path, PathBuf},
     process::Command,
 };
 
 use crate::{
     python_environment::PythonEnvironment,
-    step::{Failure, folder, run},
+    step::{Failure, cargo, folder, run},
 };
 
-/// Builds the wheel, installs it, and runs the tests of the package.
+/// The oldest Linux that the wheel runs on: glibc 2.28 (2018). A wheel that needs more is refused.
+const OLDEST_LINUX: &str = "manylinux_2_28";
+/// Largest size of the wheel \[bytes\]: a limit by convention, so that an installation takes seconds.
+const WHEEL_MOST: u64 = 20_000_000;
+/// Tries the wheel where only numpy is installed.
+const CLEAN: &str = "\
+import subprocess, sys, lissom
+arm = {'beam': {'rigid': True}, 'drive': {'inertia': '2e-3 kg*m^2', 'coulomb': '0.02 N*m', 'viscous': '5e-3 N*m*s/rad',
+       'torque_constant': '0.2 N*m/A'}, 'rig': {'sample_time': '2 ms', 'motor_sensor': {'counts_per_turn': 16384},
+       'controller': {'proportional': '4 A/rad', 'derivative': '0.15 A*s/rad'}}}
+runs = {'runs': [{'sine': {'frequency': f, 'amplitude': '0.5 rad'}, 'periods': 12} for f in ('0.5 Hz', '1.5 Hz')]}
+logs = lissom.simulate(arm, runs)
+signals = {'time': 't:s', 'motor': 'theta_m:rad', 'current': lissom.Signal('i', 'A', hold='sampled')}
+result = lissom.identify(lissom.Campaign(logs, torque_constant='0.2 N*m/A', **signals), effort='quick')
+assert abs(result['friction.coulomb_nm'] - 0.02) < 1e-3, result
+command = sys.executable.replace('python.exe', 'Scripts/lissom.exe') if sys.platform == 'win32' else sys.prefix + '/bin/lissom'
+print(subprocess.run([command, '--version'], check=True, capture_output=True, text=True).stdout.strip())
+assert not {'pandas', 'matplotlib', 'control'} & set(sys.modules)
+";
+
+/// Builds the wheel, tries it in an environment with numpy only, and runs the tests of the package with it; makes the source
+/// distribution and checks that a wheel can be built of it.
 pub(crate) fn test(root: &Path) -> Result<(), Failure> {
     let package = root.join("crates/lissom-py");
     let python = PythonEnvironment::new(root, "python", &package.join("tests/requirements.txt"))?;
     let wheel = build(root, &python, &package)?;
+
+    let clean = PythonEnvironment::clean(root, "python-clean")?;
+    run("wheel in an environment with numpy only", clean.pip_install().arg(&wheel))?;
+    run("a first result there", Command::new(&clean.program).args(["-c", CLEAN]))?;
+
     let mut install = python.pip_install();
     install.args(["--force-reinstall", "--no-deps"]);
     run("wheel installed", install.arg(&wheel))?;
     let mut tests = Command::new(&python.program);
     tests.args(["-m", "pytest", "-q", "-p", "no:cacheprovider"]).arg(&package);
-    run("tests of the Python package", &mut tests)
+    run("tests of the Python package", &mut tests)?;
+    source_distribution(root, &python, &package)
 }
 
 /// Builds the wheel for this machine; gives its file.
 fn build(root: &Path, python: &PythonEnvironment, package: &Path) -> Result<PathBuf, Failure> {
     let wheels = folder(root, "wheels")?;
-    let failed = |source| Failure::File { path: wheels.display().to_string(), source };
-    let is_wheel = |path: &PathBuf| path.extension().is_some_and(|e| e == "whl");
+    let mut build = Command::new(&python.program);
+    build.args(["-m", "maturin", "build", "--release", "--locked"]);
+    if cfg!(target_os = "linux") {
+        // The linker of zig takes the symbols of the oldest glibc. It is a package of this environment.
+        build.args(["--zig", "--compatibility", OLDEST_LINUX]).env("PATH", python.path());
+    }
+    build.current_dir(package).arg("--out").arg(&wheels);
+    let wheel = made(&wheels, ".whl", "wheel", &mut build)?;
+    let bytes = size(&wheel)?;
+    if bytes > WHEEL_MOST {
+        return Err(Failure::Large { path: wheel.display().to_string(), bytes, most: WHEEL_MOST });
+    }
+    Ok(wheel)
+}
+
+/// Makes the source distribution, and checks that cargo finds in it all that the wheel is built of.
+fn source_distribution(
+    root: &Path,
+    python: &PythonEnvironment,
+    package: &Path,
+) -> Result<(), Failure> {
+    let out = folder(root, "sdist")?;
+    let mut sdist = Command::new(&python.program);
+    sdist.args(["-m", "maturin", "sdist"]).current_dir(package).arg("--out").arg(&out);
+    let archive = made(&out, ".tar.gz", "source distribution", &mut sdist)?;
+    let unpacked = folder(root, "sdist/unpacked")?;
+    let failed = |source| Failure::File { path: unpacked.display().to_string(), source };
+    fs::remove_dir_all(&unpacked).and_then(|()| fs::create_dir(&unpacked)).map_err(failed)?;
+    let mut unpack = Command::new("tar");
+    run("unpacked", unpack.arg("-xzf").arg(&archive).arg("-C").arg(&unpacked))?;
+    let mut entries = fs::read_dir(&unpacked).map_err(failed)?.flatten();
+    let top = entries.next().ok_or_else(|| failed(std::io::ErrorKind::NotFound.into()))?.path();
+    let mut check = cargo(&top, &["check", "--locked", "--package", "lissom-py"]);
+    // The dependencies are those of this workspace, which are built already.
+    let target = env::var_os("CARGO_TARGET_DIR").map_or_else(|| root.join("target"), Into::into);
+    run("source distribution checked", check.env("CARGO_TARGET_DIR", target))
+}
+
+/// Runs a step that makes the only file with this ending in a folder; gives it.
+fn made(
+    folder: &Path,
+    ending: &str,
+    title: &str,
+    command: &mut Command,
+) -> Result<PathBuf, Failure> {
+    let failed = |source| Failure::File { path: folder.display().to_string(), source };
     let all = || -> Result<Vec<PathBuf>, Failure> {
-        let entries = fs::read_dir(&wheels).map_err(failed)?;
-        Ok(entries.flatten().map(|entry| entry.path()).filter(is_wheel).collect())
+        let entries = fs::read_dir(folder).map_err(failed)?.flatten();
+        let named = |path: &PathBuf| path.to_string_lossy().ends_with(ending);
+        Ok(entries.map(|entry| entry.path()).filter(named).collect())
     };
     for former in all()? {
         fs::remove_file(former).map_err(failed)?;
     }
-    let mut build = Command::new(&python.program);
-    build.args(["-m", "maturin", "build", "--release", "--locked", "--compatibility", "linux"]);
-    build.current_dir(package).arg("--out").arg(&wheels);
-    run("wheel", &mut build)?;
-    let made = all()?.into_iter().next();
-    let wheel = made.ok_or_else(|| failed(std::io::ErrorKind::NotFound.into()))?;
-    let bytes = fs::metadata(&wheel).map_err(failed)?.len();
-    println!("    {} ({:.1} MB)", wheel.display(), bytes as f64 / 1e6);
-    Ok(wheel)
+    run(title, command)?;
+    let file = all()?.into_iter().next();
+    let file = file.ok_or_else(|| failed(std::io::ErrorKind::NotFound.into()))?;
+    println!("    {} ({:.1} MB)", file.display(), size(&file)? as f64 / 1e6);
+    Ok(file)
+}
+
+fn size(file: &Path) -> Result<u64, Failure> {
+    let found = fs::metadata(file);
+    found
+        .map(|found| found.len())
+        .map_err(|source| Failure::File { path: file.display().to_string(), source })
 }

@@ -17,7 +17,7 @@ from ._interrupted import Interrupted
 from ._plan import Plan
 from ._process import use
 from ._progress import Progress, progress_of
-from ._result import Result, refused
+from ._result import Result
 from ._tables import Log, Path, columns, is_path
 from ._toml import toml, toml_key
 from ._validation import Validation
@@ -100,7 +100,7 @@ def identify(
             raise Interrupted(pending) from None
         raise error from Interrupted(pending)
     result = Result._of(cast("_lissom.Found", done))
-    missing = refused(result, require)
+    missing = _refused(result, require)
     if missing:
         affecting = tuple(f for f in result.findings if f.severity == "refusal")
         raise RefusedError(
@@ -313,3 +313,12 @@ def _file_or_text(source: Path | Mapping[str, Any]) -> tuple[str | None, str | N
     if isinstance(source, Mapping):
         return None, "".join(f"{toml_key(str(key))} = {toml(value)}\n" for key, value in source.items())
     return os.fspath(source), None
+
+
+def _refused(result: Result, keys: Sequence[str]) -> list[str]:
+    """Give those of the keys, or of tables such as ``friction``, whose estimates are refused."""
+    missing = []
+    for key in keys:
+        listed = [name for name in result if name == key or name.startswith((key + ".", key + "_", key + "["))]
+        missing += [name for name in listed if result[name] is None] if listed else [key]
+    return missing

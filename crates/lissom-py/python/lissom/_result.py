@@ -492,25 +492,3 @@ _Array = TypeVar("_Array", bound="NDArray[Any]")
 def _fixed(array: _Array) -> _Array:
     array.flags.writeable = False
     return array
-
-
-def refused(result: Result, keys: Sequence[str]) -> list[str]:
-    """Give those of the keys whose estimates are refused.
-
-    Parameters
-    ----------
-    result : Result
-        A result.
-    keys : sequence of str
-        Keys of parameters, or tables such as ``friction``.
-
-    Returns
-    -------
-    list of str
-        The refused ones.
-    """
-    missing = []
-    for key in keys:
-        listed = [name for name in result if name == key or name.startswith((key + ".", key + "_", key + "["))]
-        missing += [name for name in listed if result[name] is None] if listed else [key]
-    return missing
