@@ -23,17 +23,18 @@ pub(crate) struct NativeCampaign {
 #[pymethods]
 impl NativeCampaign {
     /// Reads a campaign from the text of a campaign.toml. `name` is what errors call it; files are relative to its folder.
-    /// `logs` are tables in memory by the names that the text gives as files. `only` are logs to read in place of the runs.
+    /// `logs` are tables in memory by the names that the text gives as files. `short` says that this
+    /// takes a few milliseconds: all logs are in memory, and not long.
     #[staticmethod]
-    #[pyo3(signature = (name, text, logs, only=Vec::new()))]
+    #[pyo3(signature = (name, text, logs, short=false))]
     fn of_text(
         py: Python<'_>,
         name: PathBuf,
         text: String,
         logs: Vec<Table<'_>>,
-        only: Vec<PathBuf>,
+        short: bool,
     ) -> PyResult<Self> {
-        Self::read(py, CampaignReader::of_text(name, text), &logs, &only)
+        Self::read(py, CampaignReader::of_text(name, text), &logs, &[], short)
     }
 
     /// Reads a campaign.toml and its logs. `only` are logs to read in place of its runs, of which `logs` are in memory.
@@ -45,7 +46,7 @@ impl NativeCampaign {
         logs: Vec<Table<'_>>,
         only: Vec<PathBuf>,
     ) -> PyResult<Self> {
-        Self::read(py, CampaignReader::of_file(&path), &logs, &only)
+        Self::read(py, CampaignReader::of_file(&path), &logs, &only, false)
     }
 
     /// The runs: name, sample time and start [s], and the arrays `time`, `command`, `motor` and one for each tip, in SI.
@@ -82,13 +83,15 @@ impl NativeCampaign {
         reader: CampaignReader,
         logs: &[Table<'_>],
         only: &[PathBuf],
+        short: bool,
     ) -> PyResult<Self> {
         let mut memory = MemoryLogs::default();
         for (name, columns) in logs {
             memory.add(name.as_str(), table(columns));
         }
         let reader = only.iter().fold(reader.with_logs(memory), |reader, log| reader.only(log));
-        let file = worker::wait(py, move || Ok(reader.read()?))?;
+        let work = move || Ok(reader.read()?);
+        let file = if short { worker::short(py, work)? } else { worker::wait(py, work)? };
         Ok(Self { file: Arc::new(file) })
     }
 }

@@ -1,5 +1,6 @@
 //! Long work in a thread of its own, while the calling thread shows progress and hears Ctrl-C.
 
+use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::sync::mpsc::{self, Receiver, RecvTimeoutError};
 use std::sync::{Mutex, PoisonError};
 use std::thread;
@@ -54,6 +55,17 @@ pub(crate) fn wait<T: Send + 'static>(
             Err(RecvTimeoutError::Timeout) => py.check_signals()?,
         }
     }
+}
+
+/// Runs work that takes less than about [`TICK`] in the calling thread, which saves changes of threads.
+pub(crate) fn short<T: Send>(
+    py: Python<'_>,
+    work: impl FnOnce() -> Result<T, lissom::Error> + Send,
+) -> PyResult<T> {
+    let outcome = py.detach(|| catch_unwind(AssertUnwindSafe(work)));
+    let found = outcome.map_err(|_| internal_error())?.map_err(|error| raised(py, error))?;
+    py.check_signals()?;
+    Ok(found)
 }
 
 /// Starts work in a thread; gives where its outcome arrives.

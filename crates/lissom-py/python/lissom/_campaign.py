@@ -8,7 +8,7 @@ from pathlib import Path as FilePath
 from typing import TYPE_CHECKING, Any, Literal, cast
 
 from . import _lissom
-from ._campaign_text import campaign_text, columns_of, memory_name, with_paths, with_runs
+from ._campaign_text import campaign_text, columns_of, has_own_logs, memory_name, with_paths, with_runs
 from ._drive import DRIVE, drive_table, with_unit
 from ._errors import InputError, file_error
 from ._lissom import Campaign as Native
@@ -22,6 +22,8 @@ from ._words import of_arguments
 if TYPE_CHECKING:
     from ._lissom import _Columns as Columns
 
+#: Values of tables in memory that are read within a few milliseconds.
+SHORT = 100_000
 _INPUTS = ("current", "voltage", "torque", "command")
 
 
@@ -417,8 +419,11 @@ class Campaign:
             self._native = Native.of_file(os.fspath(self._path), tables, only)
             return self._native
         text = campaign_text(self._tables, self._logs) if self._described is None else self._described
+        tables = self._in_memory()
+        values = sum(len(column) for _, log in tables for _, column in log)
+        short = len(tables) == len(self._logs) and values < SHORT and not has_own_logs(self._tables)
         try:
-            self._native = Native.of_text("campaign", text, self._in_memory())
+            self._native = Native.of_text("campaign", text, tables, short)
         except InputError as error:
             raise of_arguments(error) from None
         return self._native

@@ -118,6 +118,26 @@ def columns_of(signals: Mapping[str, Any]) -> set[str | int]:
     return wanted | ({signals["run"]} if "run" in signals else set())
 
 
+def has_own_logs(tables: Mapping[str, Mapping[str, Any]]) -> bool:
+    """Whether a signal is in a file of its own, or an arm.toml is compared.
+
+    Parameters
+    ----------
+    tables : mapping of str to mapping
+        Tables of a campaign.toml.
+
+    Returns
+    -------
+    bool
+        Whether a file is read in addition to the logs of the runs; also for a text that is not known.
+    """
+    signals = tables.get("signals")
+    if signals is None or "arm" in tables.get("drive", {}):
+        return True
+    entries = [value for value in signals.values() if isinstance(value, dict)] + list(signals.get("tips", []))
+    return any("file" in entry for entry in entries)
+
+
 def _with_paths(key: str, value: object, moved: Callable[[str], str]) -> object:
     """Give a value with its paths as they are to be written: those of signals, and of an arm.toml."""
     if isinstance(value, dict):
