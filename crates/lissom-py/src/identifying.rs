@@ -12,7 +12,8 @@ use pyo3::prelude::*;
 use crate::campaign::NativeCampaign;
 use crate::errors::input_error;
 use crate::found::NativeFound;
-use crate::worker::{self, Ended, Outcome};
+use crate::search::{self, Ended, Outcome, Pending};
+use crate::worker;
 
 /// Names of the stages in progress, with the share of all work before each. The search takes most of the time.
 const STAGES: [(&str, f64); 5] = [
@@ -47,7 +48,7 @@ fn index(stage: Stage) -> usize {
 }
 
 /// A result, or the exception that stopped the work with what ends later.
-type Identified = (Option<NativeFound>, Option<(PyErr, worker::Pending)>);
+type Identified = (Option<NativeFound>, Option<(PyErr, Pending)>);
 
 /// Identifies a campaign: what was found, and nothing; or, if it was stopped, the exception and what ends later.
 #[pyfunction]
@@ -96,7 +97,7 @@ pub(crate) fn identify<'py>(
         progress.call1((name, begins + done * (ends - begins)))?;
         py.check_signals()
     };
-    match worker::run(py, &interrupt, work, show)? {
+    match search::run(py, &interrupt, work, show)? {
         Ended::Done(done) => {
             if let Some(progress) = progress {
                 progress.call1(("done", 1.0))?;

@@ -20,6 +20,7 @@ mod identifying;
 mod inspecting;
 mod planning;
 mod reading_results;
+mod search;
 mod simulating;
 mod validating;
 mod worker;
@@ -57,11 +58,11 @@ mod _lissom {
     #[pymodule_export]
     use crate::reading_results::{parameters, result_text};
     #[pymodule_export]
+    use crate::search::Pending;
+    #[pymodule_export]
     use crate::simulating::simulate;
     #[pymodule_export]
     use crate::validating::{NativeValidation, validate};
-    #[pymodule_export]
-    use crate::worker::Pending;
 
     use super::{Bound, PyModule, PyModuleMethods as _, PyResult};
 

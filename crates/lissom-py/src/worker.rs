@@ -6,41 +6,12 @@ use std::sync::{Mutex, PoisonError};
 use std::thread;
 use std::time::Duration;
 
-use lissom::identify::Interrupt;
 use pyo3::prelude::*;
 
 use crate::errors::{internal_error, raised};
-use crate::found::NativeFound;
 
 /// Time between two looks at signals.
 const TICK: Duration = Duration::from_millis(50);
-
-/// What the work gives.
-pub(crate) type Outcome = Result<NativeFound, lissom::Error>;
-
-/// Work that was interrupted and ends soon with its best result so far.
-#[pyclass(frozen, module = "lissom._lissom")]
-pub(crate) struct Pending {
-    outcome: Mutex<Receiver<Outcome>>,
-}
-
-#[pymethods]
-impl Pending {
-    /// Waits for the best result so far. Call it once.
-    fn wait(&self, py: Python<'_>) -> PyResult<NativeFound> {
-        let outcome =
-            py.detach(|| self.outcome.lock().unwrap_or_else(PoisonError::into_inner).recv());
-        outcome.map_err(|_| internal_error())?.map_err(|error| raised(py, error))
-    }
-}
-
-/// How work ended: with a result, or by Ctrl-C or an error of the function that shows progress.
-pub(crate) enum Ended {
-    /// With a result.
-    Done(NativeFound),
-    /// By an exception; the best result so far follows.
-    Stopped(PyErr, Pending),
-}
 
 /// Runs `work` in a thread and waits for it. After Ctrl-C it is left to itself.
 pub(crate) fn wait<T: Send + 'static>(
@@ -69,7 +40,9 @@ pub(crate) fn short<T: Send>(
 }
 
 /// Starts work in a thread; gives where its outcome arrives.
-fn started<T: Send + 'static>(work: impl FnOnce() -> T + Send + 'static) -> Mutex<Receiver<T>> {
+pub(crate) fn started<T: Send + 'static>(
+    work: impl FnOnce() -> T + Send + 'static,
+) -> Mutex<Receiver<T>> {
     let (send, outcome) = mpsc::channel();
     thread::spawn(move || {
         // Nobody waits for a result that is not wanted any more.
@@ -79,28 +52,9 @@ fn started<T: Send + 'static>(work: impl FnOnce() -> T + Send + 'static) -> Mute
 }
 
 /// The outcome, if it arrives before the next look at signals.
-fn next<T: Send>(py: Python<'_>, outcome: &Mutex<Receiver<T>>) -> Result<T, RecvTimeoutError> {
+pub(crate) fn next<T: Send>(
+    py: Python<'_>,
+    outcome: &Mutex<Receiver<T>>,
+) -> Result<T, RecvTimeoutError> {
     py.detach(|| outcome.lock().unwrap_or_else(PoisonError::into_inner).recv_timeout(TICK))
-}
-
-/// Runs `work` in a thread. `show` is called about every 50 ms.
-pub(crate) fn run<'py>(
-    py: Python<'py>,
-    interrupt: &Interrupt,
-    work: impl FnOnce() -> Outcome + Send + 'static,
-    show: impl Fn(Python<'py>) -> PyResult<()>,
-) -> PyResult<Ended> {
-    let outcome = started(work);
-    loop {
-        match next(py, &outcome) {
-            Ok(found) => return found.map(Ended::Done).map_err(|error| raised(py, error)),
-            Err(RecvTimeoutError::Disconnected) => return Err(internal_error()),
-            Err(RecvTimeoutError::Timeout) => {
-                if let Err(error) = py.check_signals().and_then(|()| show(py)) {
-                    interrupt.ask();
-                    return Ok(Ended::Stopped(error, Pending { outcome }));
-                }
-            }
-        }
-    }
 }

@@ -1,6 +1,6 @@
 //! What all machines do over time, such as a season: without it, what one machine does is seen better.
 
-use super::machines::LogValue;
+use super::log_value::LogValue;
 use super::robust::median;
 
 /// Logs of each interval of time.

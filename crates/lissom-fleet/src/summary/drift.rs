@@ -3,7 +3,8 @@
 use lissom_io::fleet::{Drift, DriftValue};
 
 use super::chances::{discoveries, normal_deviation, tails};
-use super::machines::{LogValue, Machine};
+use super::log_value::LogValue;
+use super::machines::Machine;
 use super::robust::scale;
 
 /// From so many machines on, the scatter of their slopes says what is normal.

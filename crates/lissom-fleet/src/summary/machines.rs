@@ -5,6 +5,7 @@ use std::collections::HashMap;
 use super::common_course::CommonCourse;
 use super::common_scatter::CommonScatter;
 use super::line_fit::{LineFit, Point, level, line, robust_line};
+use super::log_value::LogValue;
 use super::robust::{median, scale};
 
 /// Seconds of a day: times are counted in days, in which sums of squares keep their digits.
@@ -19,16 +20,6 @@ const CLIPPED: f64 = 0.778_5;
 const ITERATIONS: usize = 10;
 /// Largest leverage of a point: beyond it its residual says nothing.
 const LEVERAGE_MOST: f64 = 0.9;
-
-/// A value of a log. Of a [`Machine`] it is without the common course.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub(super) struct LogValue<'a> {
-    pub(super) log: &'a str,
-    pub(super) machine: Option<&'a str>,
-    pub(super) time_us: Option<i64>,
-    pub(super) value: f64,
-    pub(super) std: f64,
-}
 
 /// The values of a machine, with a line or level through them.
 #[derive(Debug, Clone)]

@@ -7,6 +7,7 @@ mod distribution;
 mod drift;
 mod histogram;
 mod line_fit;
+mod log_value;
 mod machines;
 mod outliers;
 mod robust;

@@ -6,7 +6,8 @@ use lissom_io::fleet::{FailureCount, FindingCount, FleetSummary, ParameterSummar
 
 use super::distribution::distribution;
 use super::drift::drifts;
-use super::machines::{LogValue, machines};
+use super::log_value::LogValue;
+use super::machines::machines;
 use super::outliers::outliers;
 use crate::fleet_error::FleetError;
 use crate::store::{FleetTable, LOG, MACHINE, STD, TIME, Values};
