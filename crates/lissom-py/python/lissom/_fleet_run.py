@@ -5,7 +5,7 @@ from __future__ import annotations
 import json
 import os
 import queue
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path as FilePath
 from typing import Any, Literal
@@ -18,6 +18,7 @@ from ._errors import FileError, InputError, LissomError
 from ._fleet import Fleet
 from ._fleet_logs import FleetLogs
 from ._fleet_work import Columns, run_batch
+from ._progress import Progress, progress_of
 from ._tables import Path, columns, path_text
 
 #: Time between two looks at Ctrl-C, progress and a closed executor [s].
@@ -42,7 +43,7 @@ def fleet(
     resume: bool = True,
     on_error: Literal["record", "raise"] = "record",
     storage_options: Mapping[str, Any] | None = None,
-    progress: Callable[[str, float], None] | None = None,
+    progress: Progress | bool | None = None,
 ) -> Fleet:
     """Identify the logs of many machines, each by itself, and write a row for each log.
 
@@ -82,8 +83,9 @@ def fleet(
         Whether a log without a result is a row, or ends the run with an exception after its batch.
     storage_options : mapping, optional
         Options of the file system for addresses: they are sent to the workers.
-    progress : callable, optional
-        Called about ten times a second with a text and the share of the work that is done.
+    progress : bool or callable, optional
+        Whether a bar shows the progress; in notebooks it does if absent, in calls of more than half a second. Or a function
+        that is called about ten times a second with a text and the share of the work that is done.
 
     Returns
     -------
@@ -109,7 +111,8 @@ def fleet(
     run = _lissom.FleetRun(target, json.dumps(settings), json.dumps(found.entries), bool(resume))
     engine = _Local() if executor is None else _Executor(executor)
     try:
-        _Work(run, engine, tables, options, retries, on_error, progress).go()
+        with progress_of(progress) as show:
+            _Work(run, engine, tables, options, retries, on_error, show).go()
     finally:
         engine.close()
         run.end()
@@ -228,7 +231,7 @@ class _Work:
         options: Mapping[str, Any],
         retries: int,
         on_error: str,
-        progress: Callable[[str, float], None] | None,
+        progress: Progress | None,
     ) -> None:
         self._run = run
         self._engine = engine
