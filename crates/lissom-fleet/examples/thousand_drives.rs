@@ -21,6 +21,9 @@ const DRIVES: u64 = 1000;
 const DRIFTING: u64 = 10;
 const LOGS: u32 = 8;
 const DAY_US: f64 = 86_400e6;
+const CAMPAIGN: &str = "signals.time = { column = 't', unit = 's' }
+signals.current = { column = 'i', unit = 'A', hold = 'sampled' }
+signals.motor = { column = 'q', unit = 'rad' }";
 const KEY: &str = "friction.coulomb_nm";
 
 fn main() -> Result<(), Box<dyn std::error::Error>> {
@@ -104,7 +107,7 @@ fn logs_of(seed: u64, drive: u64) -> Result<Vec<FleetRow>, lissom::Error> {
 fn drifting(rows: &[FleetRow]) -> Result<Vec<String>, FleetError> {
     let folder = std::env::temp_dir().join(format!("lissom-fleet-{}", std::process::id()));
     let logs = rows.iter().map(|row| FleetLog::new(row.log.clone())).collect();
-    let mut run = FleetRun::begin(&folder, FleetSettings::new("campaign", ""), logs, true)?;
+    let mut run = FleetRun::begin(&folder, FleetSettings::new("campaign", CAMPAIGN), logs, true)?;
     let mut left = rows.iter().cloned();
     while let Some(batch) = run.next_batch(1) {
         let rows = left.by_ref().take(batch.logs.len()).collect();

@@ -52,6 +52,25 @@ pub enum FleetError {
         /// The pattern.
         pattern: String,
     },
+    /// No file has the form that the pattern states.
+    #[error("{place}: none of {files} files ends like \"{pattern}\"")]
+    NoneLikePattern {
+        /// Where they were looked for.
+        place: String,
+        /// Number of files.
+        files: usize,
+        /// The pattern.
+        pattern: String,
+    },
+    /// A name is no Unicode text.
+    #[error("{}: the name is no text", path.display())]
+    Name {
+        /// The file.
+        path: PathBuf,
+    },
+    /// The campaign that describes every log cannot be used.
+    #[error(transparent)]
+    Campaign(Box<lissom_io::Error>),
     /// A time cannot be read.
     #[error("{log}: \"{text}\" is not a time")]
     Time {
@@ -132,12 +151,16 @@ impl FleetError {
     pub fn hint(&self) -> Option<String> {
         let hint = match self {
             Self::Write(error) => return error.hint(),
+            Self::Campaign(error) => return error.hint(),
+            Self::Name { .. } => "rename the file",
             Self::Read { .. } => "check the name, and that you may read it",
             Self::NoLogs { .. } => "give a folder with logs, or the logs themselves",
             Self::Table { .. } => {
                 "a table of logs is CSV with a header: a column `log`, and, if known, `machine` and `time`"
             }
-            Self::Pattern { .. } => "a pattern is the end of a path, as in {machine}/{time}.csv",
+            Self::Pattern { .. } | Self::NoneLikePattern { .. } => {
+                "a pattern is the end of a path, as in {machine}/{time}.csv"
+            }
             Self::NotLikePattern { .. } => {
                 "correct the pattern, leave out this log, or give a table of logs"
             }

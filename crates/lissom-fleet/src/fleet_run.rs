@@ -82,6 +82,7 @@ impl FleetRun {
         if !(limit > 0.0 && limit.is_finite()) {
             return Err(FleetError::Setting { setting: "time limit", value: limit });
         }
+        settings.check_campaign(out)?;
         let (folder, done) = FleetFolder::open(out, &settings, resume)?;
         let mut seen = HashSet::new();
         let logs: Vec<FleetLog> =
@@ -112,20 +113,24 @@ impl FleetRun {
         Some(Batch { number, settings: self.settings.clone(), logs })
     }
 
-    /// Takes the rows of a batch.
+    /// Takes the rows of a batch. Logs of it without a row can be given back.
     ///
     /// # Errors
-    /// [`FleetError::NoBatch`] if these are not the rows of a batch that was given and not yet taken,
+    /// [`FleetError::NoBatch`] if these are not rows of a batch that was given and not yet taken,
     /// [`FleetError::Write`] if they cannot be written: their logs then have no rows.
     pub fn take(&mut self, found: &BatchRows) -> Result<(), FleetError> {
         let number = found.number;
-        let names = |logs: &[FleetLog]| logs.iter().map(|log| log.log.clone()).collect::<Vec<_>>();
-        let of_rows: Vec<String> = found.rows.iter().map(|row| row.log.clone()).collect();
-        if self.given.get(&number).is_none_or(|logs| names(logs) != of_rows) {
-            return Err(FleetError::NoBatch { number });
+        let mut left = self.given.get(&number).cloned().ok_or(FleetError::NoBatch { number })?;
+        for row in &found.rows {
+            let place = left.iter().position(|log| log.log == row.log);
+            left.remove(place.ok_or(FleetError::NoBatch { number })?);
         }
-        self.given.remove(&number);
         self.folder.add(&found.rows)?;
+        if left.is_empty() {
+            self.given.remove(&number);
+        } else {
+            self.given.insert(number, left);
+        }
         let rows = &found.rows;
         self.size.learn(rows.len(), found.seconds);
         let p = &mut self.progress;
@@ -137,7 +142,15 @@ impl FleetRun {
         Ok(())
     }
 
-    /// Puts the logs of a batch that was lost at the end of those that wait.
+    /// Makes rows visible that were taken half a second ago or earlier. To be called now and then.
+    ///
+    /// # Errors
+    /// [`FleetError::Write`] if the manifest cannot be written.
+    pub fn show_rows(&mut self) -> Result<(), FleetError> {
+        self.folder.finish_if_due()
+    }
+
+    /// Puts the logs of a batch that have no row at the end of those that wait.
     pub fn give_back(&mut self, number: u64) {
         self.waiting.extend(self.given.remove(&number).unwrap_or_default());
     }

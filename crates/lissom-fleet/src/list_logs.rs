@@ -3,7 +3,7 @@
 use std::collections::HashSet;
 use std::fs;
 use std::io::Read;
-use std::path::{Path, PathBuf};
+use std::path::{Component, Path, PathBuf};
 
 use lissom_io::limits::PathPattern;
 use lissom_io::log::LogPath;
@@ -11,6 +11,7 @@ use lissom_io::log::LogPath;
 use crate::fleet_error::FleetError;
 use crate::fleet_log::FleetLog;
 use crate::log_time::time_us;
+use crate::store::MANIFEST;
 
 /// Names in a pattern, and columns of a table.
 const MACHINE: &str = "machine";
@@ -40,7 +41,7 @@ impl LogPattern {
     }
 
     /// Whether a path ends like the pattern.
-    fn fits(&self, path: &Path) -> bool {
+    pub fn fits(&self, path: &Path) -> bool {
         self.pattern.read(&path.display().to_string()).is_some()
     }
 
@@ -109,23 +110,44 @@ pub fn logs_of_paths(
     }
     if files.is_empty() {
         let places: Vec<String> = paths.iter().map(|path| path.display().to_string()).collect();
-        return Err(FleetError::NoLogs { place: places.join(", ") });
+        let place = places.join(", ");
+        return Err(match pattern {
+            Some(pattern) if unlike > 0 => {
+                FleetError::NoneLikePattern { place, files: unlike, pattern: pattern.text.clone() }
+            }
+            _ => FleetError::NoLogs { place },
+        });
     }
     let mut seen = HashSet::new();
     let mut logs = Vec::with_capacity(files.len());
     for file in files {
-        let mut log = FleetLog::new(file.display().to_string());
+        let mut log = FleetLog::new(name(&file)?);
         if !seen.insert(log.log.clone()) {
             continue;
         }
         if let Some(pattern) = pattern {
             pattern.read(&mut log)?;
         }
-        // A name that is no Unicode text is not that of the file.
-        log.file = file.to_str().is_none().then_some(file);
         logs.push(log);
     }
     Ok(ListedLogs { logs, unlike })
+}
+
+/// The name of a log: its path from the root, so that it is the same from every folder. Links keep their names.
+fn name(file: &Path) -> Result<String, FleetError> {
+    let failed = |source| FleetError::Read { path: file.to_owned(), source };
+    let path = std::path::absolute(file).map_err(failed)?;
+    let parts: Vec<Component<'_>> = path.components().collect();
+    let up = parts.iter().rposition(|part| *part == Component::ParentDir);
+    let path = match up {
+        Some(up) => {
+            let above: PathBuf = parts[..=up].iter().collect();
+            let rest: PathBuf = parts[up + 1..].iter().collect();
+            above.canonicalize().map_err(failed)?.join(rest)
+        }
+        None => path,
+    };
+    path.to_str().map(str::to_owned).ok_or_else(|| FleetError::Name { path: file.to_owned() })
 }
 
 fn below(folder: &Path, except: &[PathBuf], files: &mut Vec<PathBuf>) -> Result<(), FleetError> {
@@ -140,7 +162,10 @@ fn below(folder: &Path, except: &[PathBuf], files: &mut Vec<PathBuf>) -> Result<
             continue;
         }
         if kind.is_dir() {
-            below(&path, except, files)?;
+            // The rows of a fleet are no logs.
+            if !path.join(MANIFEST).is_file() {
+                below(&path, except, files)?;
+            }
         } else if kind.is_file() || path.is_file() {
             files.push(path);
         }
@@ -217,6 +242,13 @@ mod tests {
         let machines: Vec<_> = logs.iter().map(|log| log.machine.as_deref().unwrap()).collect();
         assert_eq!(machines, ["m1", "m1", "m2"]);
         assert!(logs[0].time_us < logs[1].time_us && logs[1].time_us < logs[2].time_us);
+        // The same log has the same name, however its path is written.
+        let other = folder.path().join("m2/../m1/./2026-01-02.csv");
+        let again = logs_of_paths(&[other], None, &[]).unwrap().logs;
+        assert_eq!(again[0].log, logs[1].log);
+        let none = LogPattern::new("{machine}/{time}.mat").unwrap();
+        let error = logs_of_paths(&paths[..1], Some(&none), &[]).unwrap_err().to_string();
+        assert!(error.ends_with(": none of 3 files ends like \"{machine}/{time}.mat\""), "{error}");
 
         fs::write(folder.path().join("m1/notes.txt"), "").unwrap();
         let found = logs_of_paths(&paths, Some(&pattern), &[]).unwrap();

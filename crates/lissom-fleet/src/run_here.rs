@@ -60,7 +60,7 @@ pub fn run_here(
                 Ok(Ok(rows)) => lock().take(&rows),
                 Ok(Err(error)) => Err(error),
                 Err(RecvTimeoutError::Disconnected) => break Ok(()),
-                Err(RecvTimeoutError::Timeout) => Ok(()),
+                Err(RecvTimeoutError::Timeout) => lock().show_rows(),
             };
             if taken.is_err() {
                 break taken;

@@ -1,11 +1,13 @@
 //! What is done with every log.
 
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use std::time::Duration;
 
+use lissom_io::CampaignReader;
 use serde::{Deserialize, Serialize};
 
 use crate::effort_name::EffortName;
+use crate::fleet_error::FleetError;
 use crate::row::{FleetRow, RowOutcome};
 use crate::version::VERSION;
 
@@ -59,6 +61,18 @@ impl FleetSettings {
             time_limit_s: TIME_LIMIT_S,
             retries: RETRIES,
             keep_results: false,
+        }
+    }
+
+    /// Checks that the campaign describes logs; no log is read.
+    ///
+    /// # Errors
+    /// [`FleetError::Campaign`] if a key or value of it is wrong.
+    pub(crate) fn check_campaign(&self, folder: &Path) -> Result<(), FleetError> {
+        let reader = CampaignReader::of_text(&self.campaign_name, self.campaign.clone());
+        match reader.only(&folder.join(".no-log")).read() {
+            Ok(_) | Err(lissom_io::Error::Log(_)) => Ok(()),
+            Err(error) => Err(FleetError::Campaign(Box::new(error))),
         }
     }
 

@@ -17,6 +17,9 @@ const LOGS: u32 = 8;
 const DRIFTING: usize = 10;
 const KEY: &str = "friction.coulomb_nm";
 const DAY_US: i64 = 86_400_000_000;
+const CAMPAIGN: &str = "signals.time = { column = 't', unit = 's' }
+signals.current = { column = 'i', unit = 'A', hold = 'measured' }
+signals.motor = { column = 'q', unit = 'rad' }";
 
 /// What the logs of a fleet have beside the scatter of 3 %.
 #[derive(Clone, Copy, PartialEq)]
@@ -65,7 +68,7 @@ fn summary(kind: Kind, drifting: usize, seed: u64) -> (FleetSummary, HashSet<Str
     }
     let folder = tempfile::tempdir().unwrap();
     let logs = rows.iter().map(|row: &FleetRow| FleetLog::new(row.log.clone())).collect();
-    let settings = FleetSettings::new("campaign.toml", "");
+    let settings = FleetSettings::new("campaign.toml", CAMPAIGN);
     let mut run = FleetRun::begin(folder.path(), settings, logs, true).unwrap();
     let mut rows = rows.into_iter();
     while let Some(batch) = run.next_batch(1) {

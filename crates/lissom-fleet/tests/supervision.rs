@@ -14,6 +14,10 @@ use lissom_fleet::{
     WorkerProgram, open, run_here,
 };
 
+const CAMPAIGN: &str = "signals.time = { column = 't', unit = 's' }
+signals.current = { column = 'i', unit = 'A', hold = 'measured' }
+signals.motor = { column = 'q', unit = 'rad' }";
+
 /// Answers each log with a row; `kill` in its name ends the process, `hang` lets it wait, `once` ends it the first time.
 const SCRIPT: &str = r#"
 read settings
@@ -39,7 +43,7 @@ fn worker(folder: &Path, version: &str) -> WorkerProgram {
 }
 
 fn settings() -> FleetSettings {
-    FleetSettings { time_limit_s: 2.0, ..FleetSettings::new("campaign.toml", "") }
+    FleetSettings { time_limit_s: 2.0, ..FleetSettings::new("campaign.toml", CAMPAIGN) }
 }
 
 fn logs<'a>(names: impl IntoIterator<Item = &'a str>) -> Vec<FleetLog> {
@@ -171,7 +175,10 @@ fn a_folder_belongs_to_one_run_and_one_campaign() {
     assert!(matches!(begin(settings(), true), Err(FleetError::InUse { .. })));
     drop(run);
     let other = FleetSettings { campaign: "[signals]".to_owned(), ..settings() };
-    let error = begin(other, true).unwrap_err();
+    let error = begin(other, true).unwrap_err().to_string();
+    assert!(error.starts_with("campaign.toml, line 1: "), "{error}");
+    let campaign = CAMPAIGN.replace("'q'", "'angle'");
+    let error = begin(FleetSettings { campaign, ..settings() }, true).unwrap_err();
     assert!(error.to_string().ends_with("it has results with another campaign"), "{error}");
     assert!(matches!(begin(settings(), false), Err(FleetError::NotEmpty { .. })));
     let limit = FleetSettings { time_limit_s: 0.0, ..settings() };

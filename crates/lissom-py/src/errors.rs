@@ -56,9 +56,7 @@ fn class_of(error: &Error) -> &'static str {
 pub(crate) fn fleet_raised(py: Python<'_>, error: &FleetError) -> PyErr {
     let class = match error {
         FleetError::Read { .. } | FleetError::Write(_) | FleetError::InUse { .. } => "FileError",
-        FleetError::Version { .. } | FleetError::Worker { .. } | FleetError::Stopped => {
-            "LissomError"
-        }
+        FleetError::Worker { .. } | FleetError::Stopped => "LissomError",
         _ => "InputError",
     };
     exception(py, class, &error.to_string(), error.hint().as_deref())

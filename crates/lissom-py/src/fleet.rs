@@ -63,15 +63,26 @@ impl NativeFleetRun {
         Ok(Some((batch.number, names, PyBytes::new(py, &json))))
     }
 
-    /// Takes the rows of a batch, as JSON; gives the log and message of its first row without a result.
-    fn take(&self, py: Python<'_>, rows: &[u8]) -> PyResult<Option<(String, String)>> {
+    /// Makes rows visible that were taken a while ago.
+    fn show_rows(&self, py: Python<'_>) -> PyResult<()> {
+        py.detach(|| self.with(FleetRun::show_rows)).map_err(|e| raised(py, e))
+    }
+
+    /// Takes the rows of a batch, as JSON; gives the names of the logs that have one, and log and message of the first one
+    /// without a result. The other logs of the batch can be given back.
+    fn take(
+        &self,
+        py: Python<'_>,
+        rows: &[u8],
+    ) -> PyResult<(Vec<String>, Option<(String, String)>)> {
         let rows: BatchRows = serde_json::from_slice(rows)
             .map_err(|e| input_error(py, &format!("rows of a worker: {e}"), None))?;
         py.detach(|| self.with(|run| run.take(&rows))).map_err(|e| raised(py, e))?;
-        Ok(rows.rows.iter().find_map(|row| {
+        let failed = rows.rows.iter().find_map(|row| {
             let (_, message) = row.failure()?;
             Some((row.log.clone(), message.to_owned()))
-        }))
+        });
+        Ok((rows.rows.into_iter().map(|row| row.log).collect(), failed))
     }
 
     /// Puts the logs of a batch that was lost back.
@@ -228,12 +239,20 @@ pub(crate) fn fleet_logs(
     serde_json::to_string(&found.logs).map_err(|_| internal_error())
 }
 
-/// Logs, JSON, with what their names say by a pattern.
+/// Logs, JSON, with what their names say by a pattern. `among` leaves out those that do not end like it.
 #[pyfunction]
-pub(crate) fn fleet_pattern(py: Python<'_>, logs: &str, pattern: &str) -> PyResult<String> {
+pub(crate) fn fleet_pattern(
+    py: Python<'_>,
+    logs: &str,
+    pattern: &str,
+    among: bool,
+) -> PyResult<String> {
     let mut logs: Vec<FleetLog> = of_json(py, logs)?;
     let read = || {
         let pattern = LogPattern::new(pattern)?;
+        if among {
+            logs.retain(|log| pattern.fits(Path::new(&log.log)));
+        }
         logs.iter_mut().try_for_each(|log| pattern.read(log))
     };
     py.detach(read).map_err(|error| fleet_raised(py, &error))?;

@@ -20,6 +20,7 @@ import numpy as np
 import pandas as pd
 import pytest
 from conftest import ARM, COULOMB, SIGNALS
+from lissom import _fleet_work
 
 MACHINES, LOGS = 4, 5
 PATTERN = "{machine}/{time}.csv"
@@ -277,12 +278,21 @@ def test_arguments(folder: Path, tmp_path: Path) -> None:
         ({"effort": "fast"}, "efforts are"),
         ({"time_limit": 0}, "must be positive"),
         ({"time_limit": float("nan")}, "must be positive"),
-        ({"retries": -1}, "must not be negative"),
+        ({"retries": -1}, "not negative"),
+        ({"retries": 1.5}, "must be a number"),
+        ({"time_limit": "60 s"}, "give seconds"),
+        ({"pattern": "{machine/{time}.csv"}, "pattern"),
+        ({"pattern": "{machine}/{time}.mat"}, "none of 20 files ends like"),
         ({"refine_on": "missing-term"}, "list of codes"),
         ({"on_error": "ignore"}, "on_error"),
     ):
         with pytest.raises(lissom.InputError, match=problem):
-            run(folder, tmp_path / "out", **more)
+            lissom.fleet(folder / "logs", folder / "campaign.toml", out=tmp_path / "out", **{"pattern": PATTERN, **more})
+    with pytest.raises(lissom.InputError, match="no folder of this machine"):
+        lissom.fleet(folder / "logs", folder / "campaign.toml", out="s3://bucket/out")
+    (tmp_path / "wrong.toml").write_text(CAMPAIGN.replace('unit = "s"', 'unit = "kg"'))
+    with pytest.raises(lissom.InputError, match="wrong.toml, line 2"):
+        lissom.fleet(folder / "logs", tmp_path / "wrong.toml", out=tmp_path / "out")
     assert not (tmp_path / "out").exists()
     with pytest.raises(lissom.FileError, match="give a campaign.toml"):
         lissom.fleet(folder / "logs", folder / "none.toml", out=tmp_path / "out")
@@ -311,7 +321,7 @@ def storage() -> Iterator[dict[str, Any]]:
     running.stop()
 
 
-def test_bucket(folder: Path, tmp_path: Path, storage: dict[str, Any]) -> None:
+def test_bucket(folder: Path, tmp_path: Path, storage: dict[str, Any], monkeypatch: pytest.MonkeyPatch) -> None:
     """Logs come from a bucket; one that is gone is a row, a bucket that is not there is one error."""
     import s3fs
 
@@ -328,6 +338,19 @@ def test_bucket(folder: Path, tmp_path: Path, storage: dict[str, Any]) -> None:
     assert dict(zip(fleet["log"], fleet["failure"], strict=True)) == dict(zip(addresses, ["", "missing"], strict=True))
     with pytest.raises(lissom.FileError, match="s3://nothing/here"):
         lissom.fleet("s3://nothing/here", out=tmp_path / "none", **more)
+    # A server that cannot be reached makes no row, also of a single log: the run can go on later.
+    away = {
+        **storage,
+        "client_kwargs": {"endpoint_url": "http://127.0.0.1:9"},
+        "config_kwargs": {"retries": {"max_attempts": 0}},
+    }
+    monkeypatch.setattr(_fleet_work, "WAIT_S", 0.01)
+    with ThreadPoolExecutor(1) as threads, pytest.raises(lissom.LissomError, match="1 logs have no row"):
+        given = {"executor": threads, "retries": 0, "storage_options": away}
+        lissom.fleet(addresses[:1], folder / "campaign.toml", out=tmp_path / "away", **given)
+    assert lissom.Fleet(tmp_path / "away").rows == 0 and list(lissom.Fleet(tmp_path / "away")["log"]) == []
+    fleet = lissom.fleet(addresses[:1], folder / "campaign.toml", out=tmp_path / "away", storage_options=storage)
+    assert fleet.rows == 1 and fleet.failed == 0
     with pytest.raises(lissom.LissomError, match="check the protocol"):
         lissom.fleet("nosuchprotocol://here", out=tmp_path / "none", **more)
 

@@ -16,6 +16,10 @@ const ROWS_MOST: usize = 20;
 const DRIFTS_MOST: usize = 6;
 /// Digits of values.
 const DIGITS: usize = 4;
+/// Smallest common change that is told.
+const COMMON_LEAST: f64 = 0.05;
+/// Smallest spread of changes over their standard errors that is told.
+const SPREAD_LEAST: f64 = 2.0;
 /// Microseconds of a day.
 const DAY_US: f64 = 86_400e6;
 
@@ -66,8 +70,23 @@ pub fn conspicuous(summary: &FleetSummary) -> Vec<String> {
         let [one, several] = ["differs from the others", "differ from the others"];
         part(parameter.outlying_machines.len(), "machine", one, several);
         part(parameter.outlying_logs.len(), "log", one, several);
+        if let Some(change) = parameter.common_change.filter(|c| c.abs() >= COMMON_LEAST) {
+            parts.push(format!("what all machines do changes it by {}", percent(change)));
+        }
+        if let Some(spread) = parameter.change_spread.filter(|s| *s >= SPREAD_LEAST) {
+            let spread = significant(spread, 2);
+            parts.push(format!(
+                "changes of machines are {spread} times as large as scatter explains: many change, each in its own way"
+            ));
+        }
         (!parts.is_empty()).then(|| format!("{}: {}.", parameter.key, parts.join(", ")))
     };
+    if summary.rows == 0 {
+        return vec!["There are no rows yet.".to_owned()];
+    }
+    if summary.identified == 0 {
+        return vec!["No log was identified.".to_owned()];
+    }
     let found: Vec<String> = summary.parameters.iter().filter_map(sentence).collect();
     if found.is_empty() { vec!["No machine or log is conspicuous.".to_owned()] } else { found }
 }
@@ -304,8 +323,9 @@ pub fn failure_table(failures: &[FailureCount]) -> Table {
         ],
     );
     for f in failures {
-        let rows = f.rows.to_string();
-        table = table.row([f.failure.clone(), rows, f.log.clone(), f.message.clone()]);
+        let message = f.message.split_whitespace().collect::<Vec<_>>().join(" ");
+        let row = [f.failure.clone(), f.rows.to_string(), f.log.clone(), message];
+        table = table.row(row.map(|cell| cell.replace(char::is_control, "?")));
     }
     table
 }

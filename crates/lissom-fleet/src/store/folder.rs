@@ -5,6 +5,7 @@ use std::fs::{self, File, OpenOptions, TryLockError};
 use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant};
 
+use lissom_io::WriteError;
 use lissom_io::write::{create_folder, write_whole};
 
 use super::manifest::{Manifest, PartEntry};
@@ -85,6 +86,11 @@ impl FleetFolder {
         let seconds = rows.iter().map(|row| row.seconds).sum();
         self.manifest.parts.push(PartEntry { file, rows: rows.len(), failed, seconds });
         self.is_behind = true;
+        self.finish_if_due()
+    }
+
+    /// Writes the manifest, if it is behind for long enough.
+    pub(crate) fn finish_if_due(&mut self) -> Result<(), FleetError> {
         if self.written.elapsed() >= MANIFEST_EVERY { self.finish() } else { Ok(()) }
     }
 
@@ -101,7 +107,7 @@ impl FleetFolder {
 /// Locks a folder, as long as the file is open.
 fn locked(folder: &Path) -> Result<File, FleetError> {
     let path = folder.join(LOCK);
-    let failed = |source| FleetError::Read { path: path.clone(), source };
+    let failed = |source| WriteError::File { file: path.display().to_string(), source };
     let file =
         OpenOptions::new().create(true).truncate(false).write(true).open(&path).map_err(failed)?;
     match file.try_lock() {
@@ -111,7 +117,7 @@ fn locked(folder: &Path) -> Result<File, FleetError> {
         Err(TryLockError::Error(error)) if error.kind() == std::io::ErrorKind::Unsupported => {
             Ok(file)
         }
-        Err(TryLockError::Error(source)) => Err(failed(source)),
+        Err(TryLockError::Error(source)) => Err(failed(source).into()),
     }
 }
 
@@ -120,7 +126,8 @@ fn same(folder: &Path, then: &FleetSettings, now: &FleetSettings) -> Result<(), 
     let differs = [
         ("version of lissom", then.version != VERSION),
         ("campaign", then.campaign != now.campaign),
-        ("effort", then.effort != now.effort || then.refinement != now.refinement),
+        ("effort", then.effort != now.effort),
+        ("refinement", then.refinement != now.refinement),
         ("choice of whole results", then.keep_results != now.keep_results),
     ];
     match differs.into_iter().find(|(_, differs)| *differs) {

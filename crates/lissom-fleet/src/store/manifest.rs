@@ -1,5 +1,6 @@
 //! The manifest: what was asked, and the parts that count.
 
+use std::collections::HashSet;
 use std::path::Path;
 
 use lissom_io::write::write_json;
@@ -55,6 +56,10 @@ impl Manifest {
         let found: Self = serde_json::from_str(&text).map_err(|e| damaged(e.to_string()))?;
         if found.format != FORMAT {
             return Err(damaged(format!("its format is {}, and not {FORMAT}", found.format)));
+        }
+        let mut files = HashSet::new();
+        if let Some(part) = found.parts.iter().find(|part| !files.insert(part.file.as_str())) {
+            return Err(damaged(format!("{} is listed twice", part.file)));
         }
         // A part is a file of this folder.
         match found.parts.iter().find(|part| Path::new(&part.file).components().count() != 1) {

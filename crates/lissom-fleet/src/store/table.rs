@@ -8,7 +8,7 @@ use lissom_io::write::write_whole;
 
 use super::manifest::Manifest;
 use super::part::{part_column, part_names};
-use super::part_columns::{STD, Values};
+use super::part_columns::{STD, Values, columns};
 use crate::fleet_error::FleetError;
 
 /// The rows of a fleet, read column by column. It shows the parts that the manifest listed when it was opened.
@@ -49,6 +49,9 @@ impl FleetTable {
     /// [`FleetError::Read`] or [`FleetError::Damaged`] if a part cannot be read.
     pub fn names(&self) -> Result<Vec<String>, FleetError> {
         let (mut names, mut seen) = (Vec::new(), HashSet::new());
+        if self.manifest.parts.is_empty() {
+            return Ok(columns(&[]).into_iter().map(|(name, _)| name).collect());
+        }
         for part in &self.manifest.parts {
             for name in part_names(&self.folder.join(&part.file))? {
                 if seen.insert(name.clone()) {
@@ -75,6 +78,10 @@ impl FleetTable {
     /// # Errors
     /// As [`FleetTable::names`].
     pub fn column(&self, name: &str) -> Result<Option<Values>, FleetError> {
+        if self.manifest.parts.is_empty() {
+            let empty = columns(&[]).into_iter().find(|(known, _)| known == name);
+            return Ok(empty.map(|(_, values)| values));
+        }
         let mut all: Option<Values> = None;
         let mut before = 0;
         for part in &self.manifest.parts {
@@ -85,7 +92,7 @@ impl FleetTable {
                 problem: problem.to_owned(),
             };
             if values.as_ref().is_some_and(|values| values.len() != part.rows) {
-                return Err(wrong("it has not as many rows as the manifest says"));
+                return Err(rows_differ(&path));
             }
             let (rows, kind) = (part.rows, "a column has another type than in other parts");
             match (&mut all, values) {
@@ -118,6 +125,9 @@ impl FleetTable {
                 let path = self.folder.join(&part.file);
                 let column = |name: &String| part_column(&path, name).map_err(io::Error::other);
                 let columns = names.iter().map(column).collect::<io::Result<Vec<_>>>()?;
+                if columns.iter().flatten().any(|values| values.len() != part.rows) {
+                    return Err(io::Error::other(rows_differ(&path)));
+                }
                 for row in 0..part.rows {
                     writer.write_record(columns.iter().map(|values| text(values.as_ref(), row)))?;
                 }
@@ -125,6 +135,11 @@ impl FleetTable {
             writer.flush()
         })?)
     }
+}
+
+fn rows_differ(part: &Path) -> FleetError {
+    let problem = "it has not as many rows as the manifest says".to_owned();
+    FleetError::Damaged { path: part.to_owned(), problem }
 }
 
 /// A value as text; empty if it is missing.

@@ -1,10 +1,13 @@
 //! What all machines do over time, such as a season: without it, what one machine does is seen better.
 
+use super::line_fit::{Point, line};
 use super::log_value::LogValue;
 use super::robust::median;
 
 /// Logs of each interval of time.
-const LOGS: usize = 100;
+const LOGS: usize = 40;
+/// Smallest number of intervals: fewer do not show a course.
+const INTERVALS_LEAST: usize = 3;
 /// Largest number of intervals.
 const INTERVALS_MOST: usize = 52;
 /// Smallest number of machines that say what is common.
@@ -19,11 +22,13 @@ const ITERATIONS: usize = 3;
 pub(super) struct CommonCourse {
     /// Time in microseconds and value, ascending in time.
     points: Vec<(f64, f64)>,
+    /// First and last time.
+    span_us: (f64, f64),
 }
 
 impl CommonCourse {
     /// The medians of all machines in intervals of time, each machine over its own median. None if there are few machines
-    /// with known times, or if their levels have different signs.
+    /// or logs with known times, or if their levels have different signs.
     pub(super) fn of<'a>(groups: impl Iterator<Item = &'a [LogValue<'a>]>) -> Option<Self> {
         let timed = |values: &&[LogValue<'_>]| {
             values.len() >= LOGS_LEAST && values.iter().all(|value| value.time_us.is_some())
@@ -32,7 +37,7 @@ impl CommonCourse {
         if groups.len() < MACHINES_LEAST {
             return None;
         }
-        let mut course = Self { points: Vec::new() };
+        let mut course = Self { points: Vec::new(), span_us: (0.0, 0.0) };
         for _ in 0..ITERATIONS {
             let mut shares: Vec<(f64, f64)> = Vec::new();
             for values in &groups {
@@ -45,7 +50,11 @@ impl CommonCourse {
                 return None;
             }
             shares.sort_by(|a, b| a.0.total_cmp(&b.0));
-            let intervals = (shares.len() / LOGS).clamp(1, INTERVALS_MOST);
+            let intervals = (shares.len() / LOGS).min(INTERVALS_MOST);
+            if intervals < INTERVALS_LEAST {
+                return None;
+            }
+            course.span_us = (shares.first()?.0, shares.last()?.0);
             let each = shares.len().div_ceil(intervals);
             let point = |part: &[(f64, f64)]| {
                 Some((median(part.iter().map(|p| p.0))?, median(part.iter().map(|p| p.1))?))
@@ -69,15 +78,29 @@ impl CommonCourse {
         }
     }
 
-    /// Its relative change from begin to end.
+    /// Relative change from the first log to the last of a line through it.
     pub(super) fn change(&self) -> Option<f64> {
-        Some(self.points.last()?.1 / self.points.first()?.1 - 1.0)
+        let (from, to) = self.span_us;
+        let point =
+            |(time, y): &(f64, f64)| Point { x: (time - from) / (to - from), y: *y, std: 1.0 };
+        let fit = line(&self.points.iter().map(point).collect::<Vec<_>>())?;
+        Some(fit.at(1.0) / fit.at(0.0) - 1.0)
     }
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    /// Six logs of a machine that grows by 40 %.
+    fn grown(first: LogValue<'_>) -> Vec<LogValue<'_>> {
+        let of = |k: u8| LogValue {
+            time_us: Some(k.into()),
+            value: first.value * (1.0 + 0.4 * f64::from(k) / 5.0),
+            ..first
+        };
+        (0..6).map(of).collect()
+    }
 
     #[test]
     fn a_season_is_found_whatever_the_levels() {
@@ -97,5 +120,10 @@ mod tests {
             assert!((course.at(Some(day)) / season(day) / scale - 1.0).abs() < 0.005, "{day}");
         }
         assert_eq!(CommonCourse::of(machines[..19].iter().map(Vec::as_slice)), None);
+        // All machines grow by 40 %, in few logs.
+        let all: Vec<_> = machines[..24].iter().map(|machine| grown(machine[0])).collect();
+        let course = CommonCourse::of(all.iter().map(Vec::as_slice)).unwrap();
+        assert!((course.change().unwrap() - 0.4).abs() < 0.03, "{course:?}");
+        assert_eq!(CommonCourse::of(all[..19].iter().map(Vec::as_slice)), None);
     }
 }

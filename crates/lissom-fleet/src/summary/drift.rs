@@ -10,8 +10,9 @@ use super::robust::scale;
 /// From so many machines on, the scatter of their slopes says what is normal.
 const MACHINES_LEAST: usize = 20;
 
-/// Machines that drift, the largest changes first.
-pub(super) fn drifts(machines: &[Machine<'_>], rate: f64) -> Vec<Drift> {
+/// Machines that drift, the largest changes first, and the spread of all changes over their standard errors, if there are many
+/// machines.
+pub(super) fn drifts(machines: &[Machine<'_>], rate: f64) -> (Vec<Drift>, Option<f64>) {
     let lines: Vec<&Machine<'_>> = machines.iter().filter(|m| m.has_line()).collect();
     let own = lines.iter().map(|m| {
         let (change, std) = m.change().unwrap_or((0.0, f64::INFINITY));
@@ -19,15 +20,15 @@ pub(super) fn drifts(machines: &[Machine<'_>], rate: f64) -> Vec<Drift> {
     });
     let own: Vec<f64> = own.collect();
     let many = own.len() >= MACHINES_LEAST;
-    let spread = scale(own.iter().copied()).filter(|_| many).unwrap_or(1.0).max(1.0);
-    let compared: Vec<f64> = own.iter().map(|z| z / spread).collect();
+    let spread = scale(own.iter().copied()).filter(|_| many);
+    let compared: Vec<f64> = own.iter().map(|z| z / spread.unwrap_or(1.0).max(1.0)).collect();
     let chances: Vec<f64> = compared.iter().map(|z| tails(*z)).collect();
     let chosen = discoveries(&chances, rate);
     let found = lines.iter().zip(&compared).zip(chosen).filter(|(_, chosen)| *chosen);
     let mut drifts: Vec<Drift> = found.filter_map(|((machine, z), _)| drift(machine, *z)).collect();
     let size = |drift: &Drift| drift.relative_change.map_or(f64::INFINITY, f64::abs);
     drifts.sort_by(|a, b| size(b).total_cmp(&size(a)));
-    drifts
+    (drifts, spread)
 }
 
 fn drift(machine: &Machine<'_>, z: f64) -> Option<Drift> {

@@ -10,8 +10,8 @@ use super::robust::{center_and_scales, median, scale};
 const LEAST: f64 = 3.5;
 /// Smallest number of machines, or of logs, that say what is normal.
 const COMPARED_LEAST: usize = 10;
-/// Largest deviation that is told from larger ones: JSON has no infinity.
-const MOST: f64 = 1e6;
+/// Efficiency of the median absolute deviation for normal values: its scale is as certain as that of so many of them.
+const MAD_EFFICIENCY: f64 = 0.37;
 
 /// Logs and machines that differ, the largest deviations first. With `rate`, of those found this share is expected to be
 /// chance.
@@ -72,6 +72,8 @@ fn between_machines(machines: &[Machine<'_>], rate: f64) -> (Vec<LogOutlier>, Ve
     };
     let own = |m: &Machine<'_>| median(m.values.iter().map(|v| v.std * v.std)).unwrap_or(0.0);
     let typical = median(machines.iter().map(own)).unwrap_or(0.0);
+    // Each scale is of half of the machines.
+    let freedom = MAD_EFFICIENCY * 0.5 * levels.len() as f64;
     let deviations: Vec<f64> = machines
         .iter()
         .zip(&levels)
@@ -79,8 +81,7 @@ fn between_machines(machines: &[Machine<'_>], rate: f64) -> (Vec<LogOutlier>, Ve
             let scale = if *level < center { below } else { above };
             // An estimate that is less certain than others deviates more by chance.
             let uncertain = (own(machine) - typical).max(0.0);
-            let z = (level - center) / (scale * scale + uncertain).sqrt();
-            if z.is_nan() { 0.0 } else { z.clamp(-MOST, MOST) }
+            normal_deviation((level - center) / (scale * scale + uncertain).sqrt(), freedom)
         })
         .collect();
     let (mut logs, mut differ) = (Vec::new(), Vec::new());

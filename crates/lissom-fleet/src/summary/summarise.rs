@@ -82,12 +82,13 @@ fn parameter(
     let stds: Vec<f64> = given.iter().map(|v| v.std).collect();
     let distribution = distribution(&values, &stds, identified)?;
     let machines = machines(given);
-    let drifts = drifts(&machines.all, options.false_share);
+    let (drifts, change_spread) = drifts(&machines.all, options.false_share);
     let (outlying_logs, outlying_machines) = outliers(&machines.all, options.false_share);
     Some(ParameterSummary {
         key,
         distribution,
         common_change: machines.common_change,
+        change_spread,
         drifts,
         outlying_machines,
         outlying_logs,

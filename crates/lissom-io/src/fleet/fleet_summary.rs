@@ -58,9 +58,13 @@ pub struct ParameterSummary {
     pub key: String,
     /// Its distribution.
     pub distribution: Distribution,
-    /// Relative change of what all machines do, from the first log to the last. It is divided out before machines and logs are
-    /// compared. None with less than 20 machines that have three or more logs with known times.
+    /// Relative change of what all machines do, from the first log to the last, of a line through it. What all machines do is
+    /// divided out before machines and logs are compared. None with less than 20 machines that have three or more logs with
+    /// known times, or less than 120 logs.
     pub common_change: Option<f64>,
+    /// Spread of the changes of the machines over their standard errors: about one if nothing but scatter is in them. If it is
+    /// larger, a machine must stand out from these to be listed in `drifts`. None with less than 20 machines.
+    pub change_spread: Option<f64>,
     /// Machines that drift, the largest changes first.
     pub drifts: Vec<Drift>,
     /// Machines that differ from the others, the largest deviations first.

@@ -23,7 +23,7 @@ impl PathPattern {
                 return Err("a name in braces that is closed");
             };
             let name = rest[at + 1..at + end].trim();
-            if name.is_empty() || names.iter().any(|n| n == name) {
+            if name.is_empty() || name.contains('{') || names.iter().any(|n| n == name) {
                 return Err("names in braces that are not empty and differ");
             }
             if !names.is_empty() && at == 0 {
@@ -80,7 +80,7 @@ mod tests {
         assert!(pattern.read("a/b.txt").is_none());
         let parts = PathPattern::parse("eol_{machine}_{time}.csv").unwrap();
         assert_eq!(parts.read("x/eol_A7_0815.csv").unwrap()["machine"], "A7");
-        for wrong in ["none", "{}", "{a}{b}", "{a", "{a}/{a}"] {
+        for wrong in ["none", "{}", "{a/{b}.csv", "{a}{b}", "{a", "{a}/{a}"] {
             assert!(PathPattern::parse(wrong).is_err(), "{wrong}");
         }
     }

@@ -71,11 +71,14 @@ class FleetLogs:
                 if is_path(log):
                     entries += _of_path(path_text(log), except_, options, pattern, alone)
                 else:
-                    name = f"log {len(entries) + 1}"
+                    name = f"table {len(entries) + 1}"
                     tables[name] = log
                     entries.append(_entry(name))
         if pattern is not None:
-            entries = json.loads(_lissom.fleet_pattern(json.dumps(entries), pattern))
+            entries = json.loads(_lissom.fleet_pattern(json.dumps(entries), pattern, False))
+        names = {entry["log"] for entry in entries}
+        if len(names) < len(entries) and tables:
+            raise InputError("two logs have the same name", "give each a name of its own: a mapping of names to logs")
         if not entries:
             raise InputError("there are no logs", "give a folder, an address, or a list of logs")
         return cls(entries, tables)
@@ -141,19 +144,29 @@ def _of_path(
 ) -> list[dict[str, Any]]:
     """Give the logs of a path. One in a list that is no folder here is a log as it stands: a worker may have it."""
     is_glob = any(character in path for character in _GLOB) and not os.path.exists(path)
-    if not alone and not is_glob and not os.path.isdir(path):
-        return [_entry(path)]
+    if not alone and not is_glob and not os.path.exists(path):
+        return [_entry(path if is_address(path) else os.path.abspath(path))]
     if is_address(path):
-        return [_entry(address) for address in _of_address(path, options)]
+        return _among([_entry(address) for address in _of_address(path, options)], pattern)
     if is_glob:
         found = sorted(glob.glob(path, recursive=True))
         if not found:
             raise FileError(f"{path}: no file has this form", "check the folder")
         files = [file for file in found if os.path.isfile(file)]
-        return [_entry(file) for file in files]
+        return _among([_entry(os.path.abspath(file)) for file in files], pattern)
     if not os.path.exists(path) and "::" not in path:
         raise FileError(f"{path}: there is no such file or folder", "check the name")
     return list(json.loads(_lissom.fleet_logs([path], list(except_), pattern)))
+
+
+def _among(entries: list[dict[str, Any]], pattern: str | None) -> list[dict[str, Any]]:
+    """Leave out what does not end like the pattern."""
+    if pattern is None:
+        return entries
+    found: list[dict[str, Any]] = json.loads(_lissom.fleet_pattern(json.dumps(entries), pattern, True))
+    if not found:
+        raise InputError(f"none of {len(entries)} files ends like {pattern!r}", "correct the pattern")
+    return found
 
 
 def _of_address(address: str, options: Mapping[str, Any]) -> list[str]:
@@ -190,7 +203,9 @@ def _of_table(table: Any) -> list[dict[str, Any]]:
         if name is None or not is_path(name):
             raise InputError(f"table of logs, row {row}: {name!r} is no path", "give paths in the column `log`")
         entry = _entry(path_text(name))
-        entry["machine"] = None if machine is None else str(machine)
+        # A column of whole numbers in which one is missing has floats.
+        whole = isinstance(machine, float) and machine.is_integer()
+        entry["machine"] = None if machine is None else str(int(machine) if whole else machine)
         entry["time_us"] = None if time is None else _microseconds(time, row)
         entries.append(entry)
     return entries

@@ -7,6 +7,7 @@ import os
 import queue
 from collections.abc import Mapping, Sequence
 from concurrent.futures import ThreadPoolExecutor
+from numbers import Real
 from pathlib import Path as FilePath
 from typing import Any, Literal
 
@@ -16,7 +17,7 @@ from . import _lissom
 from ._campaign import Campaign
 from ._errors import FileError, InputError, LissomError
 from ._fleet import Fleet
-from ._fleet_logs import FleetLogs
+from ._fleet_logs import FleetLogs, is_address
 from ._fleet_work import Columns, run_batch
 from ._progress import Progress, progress_of
 from ._tables import Path, columns, path_text
@@ -25,6 +26,8 @@ from ._tables import Path, columns, path_text
 TICK_S = 0.1
 #: Batches that wait in an executor, for each worker.
 AHEAD = 2
+#: Batches that may be lost in a row.
+LOST_MOST = 20
 
 
 def fleet(
@@ -102,6 +105,8 @@ def fleet(
         If workers have another version, or are lost again and again.
     """
     target, options = path_text(out), dict(storage_options or {})
+    if is_address(target):
+        raise InputError(f"{target} is no folder of this machine", "write the rows here, and copy the folder afterwards")
     settings = _settings(like, effort, refine, refine_on, time_limit, retries, keep_results)
     if on_error not in ("record", "raise"):
         raise InputError(f"on_error is {on_error!r}, and not 'record' or 'raise'")
@@ -133,10 +138,10 @@ def _settings(
         raise InputError(f"effort is {effort!r} and refine {refine!r}", f"efforts are {', '.join(efforts)}")
     if isinstance(refine_on, str):
         raise InputError("refine_on is a list of codes", f"give it as in refine_on=[{refine_on!r}]")
-    if not 0 < time_limit < float("inf"):
-        raise InputError(f"time_limit is {time_limit} s; it must be positive")
-    if retries < 0:
-        raise InputError(f"retries is {retries}; it must not be negative")
+    if not isinstance(time_limit, Real) or not 0 < time_limit < float("inf"):
+        raise InputError(f"time_limit is {time_limit!r}; it must be positive", "give seconds: time_limit=60")
+    if not isinstance(retries, int) or not 0 <= retries < 1000:
+        raise InputError(f"retries is {retries!r}; it must be a number from 0 to 999, not negative")
     if isinstance(like, Campaign):
         name, text = like._fleet_text()
     else:
@@ -198,6 +203,8 @@ class _Executor:
     @property
     def workers(self) -> int:
         if self._is_dask:
+            if self.closed():
+                raise LissomError("the client is closed", "open a new one")
             return max(int(sum(self._executor.nthreads().values())), 1)
         return max(int(getattr(self._executor, "_max_workers", 0) or os.cpu_count() or 1), 1)
 
@@ -246,6 +253,8 @@ class _Work:
         #: How often the batch of a log was lost.
         self._lost: dict[str, int] = {}
         self._left = 0
+        #: How many batches were lost since the last rows.
+        self._in_a_row = 0
         self._cause: BaseException | None = None
 
     def go(self) -> None:
@@ -261,6 +270,7 @@ class _Work:
                     raise LissomError("the client was closed", "run the fleet again: it goes on") from None
             else:
                 self._take(number, future)
+            self._run.show_rows()
             self._show()
         if self._left:
             message = f"{self._left} logs have no row: their workers were lost ({self._cause})"
@@ -284,20 +294,18 @@ class _Work:
             rows = future.result()
         except ImportError as error:
             raise LissomError(f"a worker cannot import lissom: {error}", "install the same version there") from error
-        except InputError:
-            raise
-        except LissomError as error:
-            if "version" in str(error):
-                raise
-            self._again(number, names, error)
-        except KeyboardInterrupt:
+        except (InputError, KeyboardInterrupt):
             raise
         except BaseException as error:
             if self._engine.closed():
                 raise LissomError("the client was closed", "run the fleet again: it goes on") from error
             self._again(number, names, error)
         else:
-            failed = self._run.take(rows)
+            done, failed = self._run.take(rows)
+            self._in_a_row = 0
+            if len(done) < len(names):
+                missing = [name for name in names if name not in set(done)]
+                self._again(number, missing, LissomError("they could not be fetched"))
             if failed is not None and self._on_error == "raise":
                 log, message = failed
                 raise LissomError(f"{log}: {message}", "leave out the log, or record failures: on_error='record'")
@@ -307,6 +315,10 @@ class _Work:
         for name in names:
             self._lost[name] = self._lost.get(name, 0) + 1
         self._cause = cause
+        self._in_a_row += 1
+        if self._in_a_row > LOST_MOST:
+            message = f"{self._in_a_row} batches in a row were lost ({cause})"
+            raise LissomError(message, "run the fleet again when workers and logs can be reached: it goes on") from cause
         if max(self._lost[name] for name in names) > self._retries:
             self._left += len(names)
         else:

@@ -66,7 +66,10 @@ def run_batch(
     rows = []
     with tempfile.TemporaryDirectory(prefix="lissom-") as folder:
         for place, file in enumerate(_files(worker.logs(), Path(folder), tables, options)):
-            if isinstance(file, Exception):
+            if isinstance(file, LissomError):
+                # Not the log is the cause, but the way to it: it has no row, and is tried again.
+                continue
+            if isinstance(file, OSError):
                 rows.append(worker.missing(place, str(file)))
                 continue
             rows.append(worker.row(place, file))
@@ -95,8 +98,8 @@ def _files(
             if index + 1 < len(chunks):
                 waiting = begin(chunks[index + 1])
             lost = [file for file in found if isinstance(file, LissomError)]
-            if len(found) > 1 and len(lost) == len(found):
-                # Not the logs, but the way to them is the cause: the batch is tried again, elsewhere or later.
+            if len(lost) == len(found):
+                # The way to all of them is lost: the batch is tried again, elsewhere or later.
                 raise lost[0]
             yield from found
 
