@@ -149,6 +149,14 @@ fn logs_that_cannot_be_used_are_rows() {
     assert!(said(&done).contains("27 rows: 24 identified, 3 failed\n  3 input"), "{}", said(&done));
     let shown = output(lissom(folder).args(["fleet", "summary", "out"]));
     assert!(said(&shown).contains("m0_2026-09-0"), "{}", said(&shown));
+    // One of them is mended, and done again.
+    fs::copy(folder.join("logs/m0_2026-08-01.csv"), folder.join("logs/m0_2026-09-02.csv")).unwrap();
+    let again = output(command(folder).args(["--results", "--again", "input"]));
+    assert!(
+        said(&again).contains("27 rows: 25 identified, 2 failed\n  2 input"),
+        "{}",
+        said(&again)
+    );
 }
 
 #[test]

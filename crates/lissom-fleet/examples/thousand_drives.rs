@@ -9,8 +9,8 @@ use std::time::Instant;
 
 use lissom::prelude::*;
 use lissom_fleet::{
-    BatchRows, EffortName, FleetError, FleetLog, FleetRow, FleetRun, FleetSettings, RowOutcome,
-    RowResult, SummaryOptions, VERSION, open, summarise,
+    BatchRows, EffortName, ExistingRows, FleetError, FleetLog, FleetRow, FleetRun, FleetSettings,
+    RowOutcome, RowResult, SummaryOptions, VERSION, open, summarise,
 };
 use rand_distr::{Distribution as _, Normal};
 use rand_xoshiro::Xoshiro256PlusPlus;
@@ -107,7 +107,12 @@ fn logs_of(seed: u64, drive: u64) -> Result<Vec<FleetRow>, lissom::Error> {
 fn drifting(rows: &[FleetRow]) -> Result<Vec<String>, FleetError> {
     let folder = std::env::temp_dir().join(format!("lissom-fleet-{}", std::process::id()));
     let logs = rows.iter().map(|row| FleetLog::new(row.log.clone())).collect();
-    let mut run = FleetRun::begin(&folder, FleetSettings::new("campaign", CAMPAIGN), logs, true)?;
+    let mut run = FleetRun::begin(
+        &folder,
+        FleetSettings::new("campaign", CAMPAIGN),
+        logs,
+        &ExistingRows::Keep,
+    )?;
     let mut left = rows.iter().cloned();
     while let Some(batch) = run.next_batch(1) {
         let rows = left.by_ref().take(batch.logs.len()).collect();

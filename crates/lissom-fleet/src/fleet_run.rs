@@ -5,6 +5,7 @@ use std::path::Path;
 use std::time::{Duration, Instant};
 
 use crate::batch_size::BatchSize;
+use crate::existing_rows::ExistingRows;
 use crate::fleet_error::FleetError;
 use crate::fleet_log::FleetLog;
 use crate::row::FleetRow;
@@ -63,17 +64,17 @@ impl Progress {
 }
 
 impl FleetRun {
-    /// Begins a run that writes into `out`. Logs that have a row there are not done again.
+    /// Begins a run that writes into `out`.
     ///
     /// # Errors
     /// [`FleetError::NoLogs`] without logs, [`FleetError::Setting`] if the time limit is not positive,
-    /// [`FleetError::OtherSettings`], [`FleetError::NotEmpty`] (without `resume`), [`FleetError::InUse`],
+    /// [`FleetError::OtherSettings`], [`FleetError::NotEmpty`] (if rows are refused), [`FleetError::InUse`],
     /// [`FleetError::Damaged`] or [`FleetError::Write`] if the folder cannot be used.
     pub fn begin(
         out: &Path,
         settings: FleetSettings,
         logs: Vec<FleetLog>,
-        resume: bool,
+        existing: &ExistingRows,
     ) -> Result<Self, FleetError> {
         if logs.is_empty() {
             return Err(FleetError::NoLogs { place: "fleet".to_owned() });
@@ -83,7 +84,7 @@ impl FleetRun {
             return Err(FleetError::Setting { setting: "time limit", value: limit });
         }
         settings.check_campaign(out)?;
-        let (folder, done) = FleetFolder::open(out, &settings, resume)?;
+        let (folder, done) = FleetFolder::open(out, &settings, existing)?;
         let mut seen = HashSet::new();
         let logs: Vec<FleetLog> =
             logs.into_iter().filter(|log| seen.insert(log.log.clone())).collect();

@@ -16,6 +16,7 @@
 
 mod batch_size;
 mod effort_name;
+mod existing_rows;
 mod fleet_error;
 mod fleet_log;
 mod fleet_run;
@@ -30,6 +31,7 @@ mod version;
 mod work;
 
 pub use effort_name::EffortName;
+pub use existing_rows::ExistingRows;
 pub use fleet_error::FleetError;
 pub use fleet_log::FleetLog;
 pub use fleet_run::{FleetRun, Progress};

@@ -118,6 +118,15 @@ pub enum Failure {
 }
 
 impl Failure {
+    /// All kinds.
+    pub const ALL: [Self; 5] =
+        [Self::Missing, Self::Input, Self::TimeLimit, Self::ProcessEnded, Self::Internal];
+
+    /// The failure with this name.
+    pub fn of(name: &str) -> Option<Self> {
+        Self::ALL.into_iter().find(|failure| failure.name() == name)
+    }
+
     /// Its name.
     pub fn name(self) -> &'static str {
         match self {

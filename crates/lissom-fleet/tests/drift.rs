@@ -5,8 +5,8 @@
 use std::collections::HashSet;
 
 use lissom_fleet::{
-    BatchRows, EffortName, FleetLog, FleetRow, FleetRun, FleetSettings, FleetSummary, RowEstimate,
-    RowOutcome, RowResult, SummaryOptions, VERSION, open, summarise,
+    BatchRows, EffortName, ExistingRows, FleetLog, FleetRow, FleetRun, FleetSettings, FleetSummary,
+    RowEstimate, RowOutcome, RowResult, SummaryOptions, VERSION, open, summarise,
 };
 use rand_distr::{Distribution as _, Normal};
 use rand_xoshiro::Xoshiro256PlusPlus;
@@ -69,7 +69,7 @@ fn summary(kind: Kind, drifting: usize, seed: u64) -> (FleetSummary, HashSet<Str
     let folder = tempfile::tempdir().unwrap();
     let logs = rows.iter().map(|row: &FleetRow| FleetLog::new(row.log.clone())).collect();
     let settings = FleetSettings::new("campaign.toml", CAMPAIGN);
-    let mut run = FleetRun::begin(folder.path(), settings, logs, true).unwrap();
+    let mut run = FleetRun::begin(folder.path(), settings, logs, &ExistingRows::Keep).unwrap();
     let mut rows = rows.into_iter();
     while let Some(batch) = run.next_batch(1) {
         let rows = rows.by_ref().take(batch.logs.len()).collect();

@@ -10,8 +10,8 @@ use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::Instant;
 
 use lissom_fleet::{
-    Failure, FleetError, FleetLog, FleetRun, FleetSettings, LogWorker, Progress, VERSION, Values,
-    WorkerProgram, open, run_here,
+    ExistingRows, Failure, FleetError, FleetLog, FleetRun, FleetSettings, LogWorker, Progress,
+    VERSION, Values, WorkerProgram, open, run_here,
 };
 
 const CAMPAIGN: &str = "signals.time = { column = 't', unit = 's' }
@@ -55,7 +55,7 @@ fn many(count: usize) -> Vec<FleetLog> {
 }
 
 fn go(folder: &Path, program: &WorkerProgram, logs: Vec<FleetLog>) -> Result<Progress, FleetError> {
-    let run = FleetRun::begin(&folder.join("out"), settings(), logs, true)?;
+    let run = FleetRun::begin(&folder.join("out"), settings(), logs, &ExistingRows::Keep)?;
     run_here(run, NonZeroUsize::new(2).unwrap(), program, &AtomicBool::new(false), |_| ())
 }
 
@@ -98,7 +98,9 @@ fn rows_are_kept_and_not_doubled_when_a_run_stops() {
     let program = worker(folder.path(), VERSION);
     let logs = many(300);
     let stop = AtomicBool::new(false);
-    let run = FleetRun::begin(&folder.path().join("out"), settings(), logs.clone(), true).unwrap();
+    let run =
+        FleetRun::begin(&folder.path().join("out"), settings(), logs.clone(), &ExistingRows::Keep)
+            .unwrap();
     let two = NonZeroUsize::new(2).unwrap();
     let stopped = run_here(run, two, &program, &stop, |progress| {
         stop.store(progress.done > 20, Ordering::Relaxed);
@@ -115,7 +117,7 @@ fn rows_are_kept_and_not_doubled_when_a_run_stops() {
 fn a_killed_run_loses_at_most_what_the_manifest_does_not_list() {
     let folder = tempfile::tempdir().unwrap();
     let (out, logs) = (folder.path().join("out"), many(40));
-    let mut run = FleetRun::begin(&out, settings(), logs.clone(), true).unwrap();
+    let mut run = FleetRun::begin(&out, settings(), logs.clone(), &ExistingRows::Keep).unwrap();
     let stop = AtomicBool::new(false);
     let mut work = LogWorker::new(settings(), worker(folder.path(), VERSION)).unwrap();
     let [first, second] = [(); 2].map(|()| {
@@ -142,7 +144,7 @@ fn a_folder_that_cannot_be_written_stops_the_run_and_loses_no_row() {
     let folder = tempfile::tempdir().unwrap();
     let program = worker(folder.path(), VERSION);
     let (out, aside, logs) = (folder.path().join("out"), folder.path().join("aside"), many(200));
-    let run = FleetRun::begin(&out, settings(), logs.clone(), true).unwrap();
+    let run = FleetRun::begin(&out, settings(), logs.clone(), &ExistingRows::Keep).unwrap();
     let mut gone = false;
     let stopped = run_here(run, NonZeroUsize::MIN, &program, &AtomicBool::new(false), |progress| {
         if progress.done > 20 && !gone {
@@ -154,6 +156,25 @@ fn a_folder_that_cannot_be_written_stops_the_run_and_loses_no_row() {
     fs::rename(&aside, &out).unwrap();
     go(folder.path(), &program, logs.clone()).unwrap();
     one_row_each(folder.path(), &logs);
+}
+
+#[test]
+fn failed_rows_are_done_again_if_that_is_asked_for() {
+    let folder = tempfile::tempdir().unwrap();
+    let (out, program) = (folder.path().join("out"), worker(folder.path(), VERSION));
+    let logs = logs(["a", "kill", "b", "hang", "c"]);
+    let settings = || FleetSettings { time_limit_s: 1.0, retries: 0, ..settings() };
+    let go = |existing: &ExistingRows| {
+        let run = FleetRun::begin(&out, settings(), logs.clone(), existing).unwrap();
+        run_here(run, NonZeroUsize::MIN, &program, &AtomicBool::new(false), |_| ()).unwrap()
+    };
+    go(&ExistingRows::Keep);
+    one_row_each(folder.path(), &logs);
+    assert_eq!(go(&ExistingRows::Keep).done, 0);
+    let again = go(&ExistingRows::KeepBut(vec![Failure::TimeLimit, Failure::Missing]));
+    assert_eq!((again.before, again.done, again.failed), (4, 1, 1));
+    one_row_each(folder.path(), &logs);
+    assert_eq!(open(&out).unwrap().manifest().parts.iter().map(|p| p.failed).sum::<usize>(), 2);
 }
 
 #[test]
@@ -169,8 +190,10 @@ fn workers_of_another_version_are_refused() {
 fn a_folder_belongs_to_one_run_and_one_campaign() {
     let folder = tempfile::tempdir().unwrap();
     let out = folder.path().join("out");
-    let begin =
-        |settings: FleetSettings, resume: bool| FleetRun::begin(&out, settings, many(2), resume);
+    let begin = |settings: FleetSettings, resume: bool| {
+        let existing = if resume { ExistingRows::Keep } else { ExistingRows::Refuse };
+        FleetRun::begin(&out, settings, many(2), &existing)
+    };
     let run = begin(settings(), true).unwrap();
     assert!(matches!(begin(settings(), true), Err(FleetError::InUse { .. })));
     drop(run);

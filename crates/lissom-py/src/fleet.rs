@@ -6,8 +6,9 @@ use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 
 use lissom_fleet::{
-    Batch, BatchRows, FleetError, FleetLog, FleetRun, FleetSettings, LogPattern, LogWorker,
-    Progress, SummaryOptions, Values, WorkerProgram, logs_of_paths, open, summarise, time_us,
+    Batch, BatchRows, ExistingRows, Failure, FleetError, FleetLog, FleetRun, FleetSettings,
+    LogPattern, LogWorker, Progress, SummaryOptions, Values, WorkerProgram, logs_of_paths, open,
+    summarise, time_us,
 };
 use lissom_views::fleet_page;
 use numpy::PyArray1;
@@ -18,6 +19,9 @@ use crate::errors::{fleet_raised, input_error, internal_error};
 
 /// A batch: its number, the names of its logs, and itself as JSON.
 type GivenBatch<'py> = (u64, Vec<String>, Bound<'py, PyBytes>);
+
+/// Names of logs that have a row, and log and message of the first one without a result.
+type Taken = (Vec<String>, Option<(String, String)>);
 
 /// Columns by name.
 type NamedColumns<'py> = Vec<(String, Bound<'py, PyAny>)>;
@@ -30,7 +34,7 @@ pub(crate) struct NativeFleetRun {
 
 #[pymethods]
 impl NativeFleetRun {
-    /// Begins a run that writes into a folder. `settings` and `logs` are JSON.
+    /// Begins a run that writes into a folder. `settings` and `logs` are JSON. Logs with the failures `again` are done again.
     #[new]
     fn new(
         py: Python<'_>,
@@ -38,10 +42,17 @@ impl NativeFleetRun {
         settings: &str,
         logs: &str,
         resume: bool,
+        again: Vec<String>,
     ) -> PyResult<Self> {
         let settings: FleetSettings = of_json(py, settings)?;
         let logs: Vec<FleetLog> = of_json(py, logs)?;
-        let run = py.detach(|| FleetRun::begin(&out, settings, logs, resume));
+        let again: Vec<Failure> = again.iter().filter_map(|name| Failure::of(name)).collect();
+        let existing = match (resume, again.is_empty()) {
+            (false, _) => ExistingRows::Refuse,
+            (true, true) => ExistingRows::Keep,
+            (true, false) => ExistingRows::KeepBut(again),
+        };
+        let run = py.detach(|| FleetRun::begin(&out, settings, logs, &existing));
         let run = run.map_err(|error| fleet_raised(py, &error))?;
         Ok(Self { run: Mutex::new(Some(run)) })
     }
@@ -70,11 +81,7 @@ impl NativeFleetRun {
 
     /// Takes the rows of a batch, as JSON; gives the names of the logs that have one, and log and message of the first one
     /// without a result. The other logs of the batch can be given back.
-    fn take(
-        &self,
-        py: Python<'_>,
-        rows: &[u8],
-    ) -> PyResult<(Vec<String>, Option<(String, String)>)> {
+    fn take(&self, py: Python<'_>, rows: &[u8]) -> PyResult<Taken> {
         let rows: BatchRows = serde_json::from_slice(rows)
             .map_err(|e| input_error(py, &format!("rows of a worker: {e}"), None))?;
         py.detach(|| self.with(|run| run.take(&rows))).map_err(|e| raised(py, e))?;
@@ -204,10 +211,7 @@ impl FleetWorker {
         message: String,
     ) -> PyResult<Bound<'py, PyBytes>> {
         let log = self.batch.logs.get(place).ok_or_else(internal_error)?;
-        as_bytes(
-            py,
-            &lissom_fleet::FleetRow::failed(log, 0.0, lissom_fleet::Failure::Missing, message),
-        )
+        as_bytes(py, &lissom_fleet::FleetRow::failed(log, 0.0, Failure::Missing, message))
     }
 
     /// Ends the process; a thread that waits for a row gets an exception.

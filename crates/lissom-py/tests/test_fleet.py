@@ -224,6 +224,10 @@ def test_logs_that_hang_or_are_damaged_are_rows(folder: Path, tmp_path: Path) ->
     found = dict(zip(fleet["log"], fleet["failure"], strict=True))
     assert [found[str(log)] for log in logs] == ["time_limit", "input", "", "input", "input", "missing"]
     assert fleet.failed == 5 and all(fleet["message"][fleet["failure"] != ""])
+    pipe.unlink()
+    pipe.write_bytes(good.read_bytes())
+    fleet = lissom.fleet(table, folder / "campaign.toml", out=tmp_path / "out", again=["time_limit"])
+    assert fleet.rows == 6 and fleet.failed == 4 and len(set(fleet["log"])) == 6
     with pytest.raises(lissom.LissomError, match="empty.csv"):
         lissom.fleet({"log": [str(logs[1])]}, folder / "campaign.toml", out=tmp_path / "raise", on_error="raise")
 
@@ -281,6 +285,7 @@ def test_arguments(folder: Path, tmp_path: Path) -> None:
         ({"retries": -1}, "not negative"),
         ({"retries": 1.5}, "must be a number"),
         ({"time_limit": "60 s"}, "give seconds"),
+        ({"again": ["gone"]}, "give a list of these"),
         ({"pattern": "{machine/{time}.csv"}, "pattern"),
         ({"pattern": "{machine}/{time}.mat"}, "none of 20 files ends like"),
         ({"refine_on": "missing-term"}, "list of codes"),

@@ -69,8 +69,11 @@ pub(crate) struct FleetRunArgs {
     #[arg(long)]
     pub(crate) results: bool,
     /// Fail if DIR has rows already
-    #[arg(long)]
+    #[arg(long, conflicts_with = "again")]
     pub(crate) new: bool,
+    /// Do logs again that failed so: missing, input, time_limit, process_ended, internal; repeatable
+    #[arg(long, value_name = "FAILURE", value_parser = ["missing", "input", "time_limit", "process_ended", "internal"], hide_possible_values = true)]
+    pub(crate) again: Vec<String>,
 }
 
 #[derive(Debug, Args)]

@@ -8,8 +8,8 @@ use std::path::Path;
 use std::thread;
 
 use lissom_fleet::{
-    EffortName, FleetError, FleetLog, FleetRun, FleetSettings, LogPattern, Refinement,
-    WorkerProgram, logs_of_paths, logs_of_table, open, run_here, serve,
+    EffortName, ExistingRows, FleetError, FleetLog, FleetRun, FleetSettings, LogPattern,
+    Refinement, WorkerProgram, logs_of_paths, logs_of_table, open, run_here, serve,
 };
 use lissom_io::read_text;
 
@@ -49,7 +49,14 @@ fn identify(args: &FleetRunArgs, own: &[OsString]) -> Result<ExitCode, Failure> 
     let mut arguments = arguments.to_vec();
     arguments.extend(["fleet", "worker"].map(OsString::from));
     let program = WorkerProgram { program: program.into(), arguments };
-    let run = FleetRun::begin(out, settings(args, like)?, logs(args, like, out)?, !args.new)?;
+    let existing = match &args.again[..] {
+        _ if args.new => ExistingRows::Refuse,
+        [] => ExistingRows::Keep,
+        again => ExistingRows::KeepBut(
+            again.iter().filter_map(|name| lissom_fleet::Failure::of(name)).collect(),
+        ),
+    };
+    let run = FleetRun::begin(out, settings(args, like)?, logs(args, like, out)?, &existing)?;
     let cores = || thread::available_parallelism().unwrap_or(NonZeroUsize::MIN);
     let workers = args.workers.unwrap_or_else(cores);
     let bar = FleetBar::new(run.progress().logs);

@@ -10,10 +10,11 @@ use lissom_io::write::{create_folder, write_whole};
 
 use super::manifest::{Manifest, PartEntry};
 use super::part::part_bytes;
-use super::part_columns::{LOG, Values, columns};
+use super::part_columns::{FAILURE, LOG, Values, columns};
 use super::table::FleetTable;
+use crate::existing_rows::ExistingRows;
 use crate::fleet_error::FleetError;
-use crate::row::FleetRow;
+use crate::row::{Failure, FleetRow};
 use crate::settings::FleetSettings;
 use crate::version::VERSION;
 
@@ -40,12 +41,12 @@ impl FleetFolder {
     pub(crate) fn open(
         path: &Path,
         settings: &FleetSettings,
-        resume: bool,
+        existing: &ExistingRows,
     ) -> Result<(Self, HashSet<String>), FleetError> {
         create_folder(path)?;
         let lock = locked(path)?;
         let manifest = match Manifest::read(path)? {
-            Some(_) if !resume => {
+            Some(_) if *existing == ExistingRows::Refuse => {
                 return Err(FleetError::NotEmpty { folder: path.to_owned() });
             }
             Some(found) => {
@@ -58,17 +59,68 @@ impl FleetFolder {
                 manifest
             }
         };
-        remove_others(path, &manifest)?;
-        let done = FleetTable::new(path.to_owned(), manifest.clone()).column(LOG)?;
-        let done = match done {
-            Some(Values::Text(names)) => names.into_iter().flatten().collect(),
-            _ => HashSet::new(),
-        };
         let numbers = manifest.parts.iter().filter_map(|part| number(&part.file));
         let next_part = numbers.max().map_or(1, |last| last + 1);
         let (written, is_behind) = (Instant::now(), false);
-        let path = path.to_owned();
-        Ok((Self { path, manifest, next_part, written, is_behind, _lock: lock }, done))
+        let mut folder =
+            Self { path: path.to_owned(), manifest, next_part, written, is_behind, _lock: lock };
+        if let ExistingRows::KeepBut(failures) = existing {
+            folder.take_out(failures)?;
+        }
+        remove_others(path, &folder.manifest)?;
+        let table = FleetTable::new(path.to_owned(), folder.manifest.clone());
+        let done = match table.column(LOG)? {
+            Some(Values::Text(names)) => names.into_iter().flatten().collect(),
+            _ => HashSet::new(),
+        };
+        Ok((folder, done))
+    }
+
+    /// Takes out the rows with these failures: parts that have some are replaced by parts without them.
+    fn take_out(&mut self, failures: &[Failure]) -> Result<(), FleetError> {
+        let is_taken = |failure: &Option<String>| {
+            failure.as_deref().and_then(Failure::of).is_some_and(|f| failures.contains(&f))
+        };
+        let mut parts = Vec::new();
+        for part in self.manifest.parts.clone() {
+            let one = Manifest { parts: vec![part.clone()], ..self.manifest.clone() };
+            let table = FleetTable::new(self.path.clone(), one);
+            let Some(Values::Text(all)) = table.column(FAILURE)? else {
+                parts.push(part);
+                continue;
+            };
+            let kept: Vec<bool> = all.iter().map(|failure| !is_taken(failure)).collect();
+            let rows = kept.iter().filter(|kept| **kept).count();
+            if rows == part.rows {
+                parts.push(part);
+                continue;
+            }
+            let mut columns = Vec::new();
+            for name in table.names()? {
+                if let Some(values) = table.column(&name)? {
+                    columns.push((name, values.only(&kept)));
+                }
+            }
+            if rows > 0 {
+                let failed = part.failed - (part.rows - rows);
+                let file = self.write_part(&columns)?;
+                parts.push(PartEntry { file, rows, failed, ..part });
+            }
+        }
+        self.manifest.parts = parts;
+        self.is_behind = true;
+        self.finish()
+    }
+
+    /// Writes the next part; gives its file.
+    fn write_part(&mut self, columns: &[(String, Values)]) -> Result<String, FleetError> {
+        let file = format!("{}{:06}{}", PART.0, self.next_part, PART.1);
+        let path = self.path.join(&file);
+        let bytes = part_bytes(columns)
+            .map_err(|e| FleetError::Damaged { path: path.clone(), problem: e.to_string() })?;
+        write_whole(&path, |out| out.write_all(&bytes))?;
+        self.next_part += 1;
+        Ok(file)
     }
 
     /// Adds rows: a part, and the manifest now or at the next time.
@@ -76,12 +128,7 @@ impl FleetFolder {
         if rows.is_empty() {
             return Ok(());
         }
-        let file = format!("{}{:06}{}", PART.0, self.next_part, PART.1);
-        let path = self.path.join(&file);
-        let bytes = part_bytes(&columns(rows))
-            .map_err(|e| FleetError::Damaged { path: path.clone(), problem: e.to_string() })?;
-        write_whole(&path, |out| out.write_all(&bytes))?;
-        self.next_part += 1;
+        let file = self.write_part(&columns(rows))?;
         let failed = rows.iter().filter(|row| row.failure().is_some()).count();
         let seconds = rows.iter().map(|row| row.seconds).sum();
         self.manifest.parts.push(PartEntry { file, rows: rows.len(), failed, seconds });

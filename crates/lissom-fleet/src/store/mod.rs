@@ -9,5 +9,5 @@ mod table;
 pub(crate) use folder::FleetFolder;
 pub use manifest::{MANIFEST, Manifest, PartEntry};
 pub use part_columns::Values;
-pub(crate) use part_columns::{LOG, MACHINE, STD, TIME};
+pub(crate) use part_columns::{FAILURE, LOG, MACHINE, STD, TIME};
 pub use table::{FleetTable, open};

@@ -10,6 +10,8 @@ pub(crate) const LOG: &str = "log";
 pub(crate) const MACHINE: &str = "machine";
 /// Column of the times.
 pub(crate) const TIME: &str = "time";
+/// Column of the kinds of failures.
+pub(crate) const FAILURE: &str = "failure";
 /// Suffix of a standard error's column.
 pub(crate) const STD: &str = ".std";
 
@@ -31,6 +33,23 @@ impl Values {
             Self::Text(values) => values.len(),
             Self::Number(values) => values.len(),
             Self::Time(values) => values.len(),
+        }
+    }
+
+    /// The rows for which `kept` is true.
+    pub(super) fn only(self, kept: &[bool]) -> Self {
+        fn only<T>(values: Vec<T>, kept: &[bool]) -> Vec<T> {
+            values
+                .into_iter()
+                .zip(kept)
+                .filter(|(_, kept)| **kept)
+                .map(|(value, _)| value)
+                .collect()
+        }
+        match self {
+            Self::Text(values) => Self::Text(only(values, kept)),
+            Self::Number(values) => Self::Number(only(values, kept)),
+            Self::Time(values) => Self::Time(only(values, kept)),
         }
     }
 
@@ -60,7 +79,7 @@ pub(super) fn columns(rows: &[FleetRow]) -> Vec<(String, Values)> {
         (LOG, text(&|row| Some(row.log.clone()))),
         (MACHINE, text(&|row| row.machine.clone())),
         (TIME, Values::Time(rows.iter().map(|row| row.time_us).collect())),
-        ("failure", failed(&|failure, _| failure.to_owned())),
+        (FAILURE, failed(&|failure, _| failure.to_owned())),
         ("message", failed(&|_, message| message.to_owned())),
         ("effort", found(&|found| Some(found.effort.name().to_owned()))),
         ("refusals", found(&|found| Some(found.refusals.join(" ")))),

@@ -10,7 +10,7 @@ use super::log_value::LogValue;
 use super::machines::machines;
 use super::outliers::outliers;
 use crate::fleet_error::FleetError;
-use crate::store::{FleetTable, LOG, MACHINE, STD, TIME, Values};
+use crate::store::{FAILURE, FleetTable, LOG, MACHINE, STD, TIME, Values};
 use crate::version::VERSION;
 
 /// Options of a summary.
@@ -37,7 +37,7 @@ pub fn summarise(table: &FleetTable, options: SummaryOptions) -> Result<FleetSum
         Some(Values::Time(times)) => times,
         _ => vec![None; logs.len()],
     };
-    let failures = failures(&logs, &texts(table, "failure")?, &texts(table, "message")?);
+    let failures = failures(&logs, &texts(table, FAILURE)?, &texts(table, "message")?);
     let identified = table.rows() - failures.iter().map(|f| f.rows).sum::<usize>();
     let known = times.iter().flatten();
     let mut names: Vec<&str> = of_machine.iter().flatten().map(String::as_str).collect();

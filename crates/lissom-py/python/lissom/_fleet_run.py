@@ -26,6 +26,8 @@ from ._tables import Path, columns, path_text
 TICK_S = 0.1
 #: Batches that wait in an executor, for each worker.
 AHEAD = 2
+#: Why a log has no result.
+FAILURES = ("missing", "input", "time_limit", "process_ended", "internal")
 #: Batches that may be lost in a row.
 LOST_MOST = 20
 
@@ -44,6 +46,7 @@ def fleet(
     retries: int = 2,
     keep_results: bool = False,
     resume: bool = True,
+    again: Sequence[Literal["missing", "input", "time_limit", "process_ended", "internal"]] = (),
     on_error: Literal["record", "raise"] = "record",
     storage_options: Mapping[str, Any] | None = None,
     progress: Progress | bool | None = None,
@@ -82,6 +85,8 @@ def fleet(
         Whether rows have the whole result of each log, see `Fleet.result`.
     resume : bool
         Whether a run into a folder with rows goes on; an error if not.
+    again : sequence of {'missing', 'input', 'time_limit', 'process_ended', 'internal'}
+        Failures of former rows whose logs are done again.
     on_error : {'record', 'raise'}
         Whether a log without a result is a row, or ends the run with an exception after its batch.
     storage_options : mapping, optional
@@ -110,10 +115,12 @@ def fleet(
     settings = _settings(like, effort, refine, refine_on, time_limit, retries, keep_results)
     if on_error not in ("record", "raise"):
         raise InputError(f"on_error is {on_error!r}, and not 'record' or 'raise'")
+    if isinstance(again, str) or not set(again) <= set(FAILURES):
+        raise InputError(f"again is {again!r}", f"give a list of these: {', '.join(FAILURES)}")
     described = [] if isinstance(like, Campaign) else [path_text(like)]
     found = FleetLogs.of(logs, pattern, [*described, target], options)
     tables = {name: _columns(name, log) for name, log in found.tables.items()}
-    run = _lissom.FleetRun(target, json.dumps(settings), json.dumps(found.entries), bool(resume))
+    run = _lissom.FleetRun(target, json.dumps(settings), json.dumps(found.entries), bool(resume), list(again))
     engine = _Local() if executor is None else _Executor(executor)
     try:
         with progress_of(progress) as show:
