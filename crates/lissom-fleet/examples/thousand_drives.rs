@@ -2,7 +2,7 @@
 //! temperature changes friction of all drives over the seasons, and warm-up that of each log. Each log is simulated,
 //! identified quickly, and the fleet is summarised: which drives are said to drift, and which do?
 //!
-//! `cargo run --release -p lissom-fleet --example thousand_drives -- 11 12 13` with the seeds of the fleets.
+//! `cargo run --release -p lissom-fleet --example thousand_drives -- 14 15 16` with the seeds of the fleets.
 #![expect(clippy::print_stdout, reason = "an example shows what it finds")]
 
 use std::time::Instant;
