@@ -21,13 +21,13 @@ fn blocks(document: &str) -> Vec<String> {
     fenced.map(|rest| rest.split("```").next().unwrap().to_owned()).collect()
 }
 
-/// A log of 3000 rows in which every column moves and the first is time at 2 ms.
+/// A log of 3000 rows in which every column moves in its own way and the first is time at 2 ms.
 fn log(separator: &str) -> String {
     let mut text = COLUMNS.join(separator) + "\n";
     for k in 0..3000 {
-        let wave = (f64::from(k) * 0.02).sin();
-        let cells = [wave; COLUMNS.len() - 1].map(|v| format!("{v:.6}")).join(separator);
-        writeln!(text, "{:.3}{separator}{cells}", f64::from(k) * 0.002).unwrap();
+        let wave = |column: usize| (f64::from(k) * 0.02 + 0.1 * column as f64).sin();
+        let cells: Vec<String> = (1..COLUMNS.len()).map(|c| format!("{:.6}", wave(c))).collect();
+        writeln!(text, "{:.3}{separator}{}", f64::from(k) * 0.002, cells.join(separator)).unwrap();
     }
     text
 }
