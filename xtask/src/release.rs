@@ -8,13 +8,14 @@ use crate::step::{Failure, ask, cargo, run};
 const STATIC_TARGET: &str = "x86_64-unknown-linux-musl";
 
 /// The published crates, each after those that it depends on.
-const CRATES: [&str; 8] = [
+const CRATES: [&str; 9] = [
     "lissom-text",
     "lissom-core",
     "lissom-formats",
     "lissom-report",
     "lissom-io",
     "lissom",
+    "lissom-fleet",
     "lissom-views",
     "lissom-cli",
 ];
