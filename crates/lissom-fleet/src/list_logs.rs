@@ -104,8 +104,8 @@ pub fn logs_of_paths(
         } else if path.exists() || LogPath::of(path).group.is_some() {
             files.push(path.clone());
         } else {
-            let source = std::io::ErrorKind::NotFound.into();
-            return Err(FleetError::Read { path: path.clone(), source });
+            let failed = |source| FleetError::Read { path: path.clone(), source };
+            path.metadata().map_err(failed)?;
         }
     }
     if files.is_empty() {

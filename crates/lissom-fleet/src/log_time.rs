@@ -3,12 +3,13 @@
 use chrono::{DateTime, NaiveDate, NaiveDateTime};
 
 /// Forms of a date with time, without a zone: UTC.
-const DATE_TIMES: [&str; 8] = [
+const DATE_TIMES: [&str; 9] = [
     "%Y-%m-%dT%H:%M:%S%.f",
     "%Y-%m-%d %H:%M:%S%.f",
     "%Y-%m-%dT%H-%M-%S",
     "%Y-%m-%d_%H-%M-%S",
     "%Y-%m-%dT%H:%M",
+    "%Y-%m-%d %H:%M",
     "%Y%m%dT%H%M%S",
     "%Y%m%d_%H%M%S",
     "%Y%m%d-%H%M%S",
@@ -31,7 +32,8 @@ const SECONDS_LEAST: f64 = 1e9;
 /// ```
 pub fn time_us(text: &str) -> Option<i64> {
     let text = text.trim();
-    if let Ok(time) = DateTime::parse_from_rfc3339(text) {
+    let zoned = DateTime::parse_from_rfc3339(text);
+    if let Ok(time) = zoned.or_else(|_| DateTime::parse_from_str(text, "%Y-%m-%dT%H:%M:%S%.f%z")) {
         return Some(time.timestamp_micros());
     }
     let basic = text.strip_suffix('Z').unwrap_or(text);
@@ -76,6 +78,8 @@ mod tests {
             "2026-11-27T08:15:00+01:00",
             "2026-11-27 07:15:00",
             "2026-11-27T07:15",
+            "2026-11-27 07:15",
+            "2026-11-27T08:15:00+0100",
             "2026-11-27T07-15-00",
             "20261127T071500",
             "20261127T071500Z",

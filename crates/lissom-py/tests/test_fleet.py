@@ -286,6 +286,7 @@ def test_arguments(folder: Path, tmp_path: Path) -> None:
         ({"retries": 1.5}, "must be a number"),
         ({"time_limit": "60 s"}, "give seconds"),
         ({"again": ["gone"]}, "give a list of these"),
+        ({"workers": 0}, "must be from 1"),
         ({"pattern": "{machine/{time}.csv"}, "pattern"),
         ({"pattern": "{machine}/{time}.mat"}, "none of 20 files ends like"),
         ({"refine_on": "missing-term"}, "list of codes"),

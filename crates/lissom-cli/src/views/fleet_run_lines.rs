@@ -9,6 +9,8 @@ use super::printer::{line, note};
 
 /// Number of logs of the large fleet whose time is estimated.
 const MANY: f64 = 1e6;
+/// Smallest number of logs that say what others cost.
+const TYPICAL_LEAST: usize = 100;
 /// Seconds of an hour.
 const HOUR_S: f64 = 3600.0;
 /// Digits of times.
@@ -42,8 +44,11 @@ pub(crate) fn print(
             each(workers_s),
             each(p.logs_s),
         ));
-        let hours = MANY * workers_s / p.done as f64 / HOUR_S;
-        line(&format!("10⁶ such logs: about {} hours of a worker", significant(hours, DIGITS)));
+        // Few logs, or none with a result, do not say what many cost.
+        if p.done >= TYPICAL_LEAST && p.failed < p.done {
+            let hours = MANY * workers_s / p.done as f64 / HOUR_S;
+            line(&format!("10⁶ such logs: about {} hours of a worker", significant(hours, DIGITS)));
+        }
     }
     Ok(())
 }

@@ -26,6 +26,8 @@ from ._tables import Path, columns, path_text
 TICK_S = 0.1
 #: Batches that wait in an executor, for each worker.
 AHEAD = 2
+#: Most processes of this machine at a time.
+MOST_WORKERS = 1024
 #: Why a log has no result.
 FAILURES = ("missing", "input", "time_limit", "process_ended", "internal")
 #: Batches that may be lost in a row.
@@ -39,6 +41,7 @@ def fleet(
     out: Path,
     pattern: str | None = None,
     executor: Any = None,
+    workers: int | None = None,
     effort: Literal["quick", "normal", "thorough"] = "quick",
     refine: Literal["normal", "thorough"] | None = "normal",
     refine_on: Sequence[str] = (),
@@ -71,6 +74,8 @@ def fleet(
     executor : object, optional
         Where batches are identified: anything with a method ``submit``, as a ``distributed.Client`` or an executor of
         `concurrent.futures`. Processes of this machine if absent.
+    workers : int, optional
+        Number of processes of this machine at a time, without an executor; all cores if absent.
     effort : {'quick', 'normal', 'thorough'}
         Effort for every log.
     refine : {'normal', 'thorough'}, optional
@@ -117,11 +122,13 @@ def fleet(
         raise InputError(f"on_error is {on_error!r}, and not 'record' or 'raise'")
     if isinstance(again, str) or not set(again) <= set(FAILURES):
         raise InputError(f"again is {again!r}", f"give a list of these: {', '.join(FAILURES)}")
+    if workers is not None and not (isinstance(workers, int) and 1 <= workers <= MOST_WORKERS):
+        raise InputError(f"workers is {workers!r}; it must be from 1 to {MOST_WORKERS}")
     described = [] if isinstance(like, Campaign) else [path_text(like)]
     found = FleetLogs.of(logs, pattern, [*described, target], options)
     tables = {name: _columns(name, log) for name, log in found.tables.items()}
     run = _lissom.FleetRun(target, json.dumps(settings), json.dumps(found.entries), bool(resume), list(again))
-    engine = _Local() if executor is None else _Executor(executor)
+    engine = _Local(workers) if executor is None else _Executor(executor)
     try:
         with progress_of(progress) as show:
             _Work(run, engine, tables, options, retries, on_error, show).go()
@@ -177,8 +184,9 @@ def _columns(name: str, log: Any) -> Columns:
 class _Local:
     """Threads of this process, each with a worker process."""
 
-    def __init__(self) -> None:
-        self.workers = len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else os.cpu_count() or 1
+    def __init__(self, workers: int | None) -> None:
+        cores = len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else os.cpu_count() or 1
+        self.workers = cores if workers is None else workers
         self._pool = ThreadPoolExecutor(self.workers)
         self._started: list[Any] = []
 
