@@ -1,6 +1,6 @@
 //! 1,000 simulated drives with eight logs each, over eight months. The Coulomb friction of ten of them grows by 30 %. Hall
 //! temperature changes friction of all drives over the seasons, and warm-up that of each log. Each log is simulated,
-//! identified quickly, and the fleet is summarised: which drives are said to drift, and which do?
+//! identified quickly, and the fleet is summarised: which drives are reported as drifting, and which do?
 //!
 //! `cargo run --release -p lissom-fleet --example thousand_drives -- 14 15 16` with the seeds of the fleets.
 #![expect(clippy::print_stdout, reason = "an example shows what it finds")]
@@ -39,7 +39,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
         let drifts = drifting(&rows)?;
         let found = drifts.iter().filter(|name| is_drifting(name)).count();
         println!(
-            "seed {seed}: {} logs, {} drives said to drift, {found} of them do, of {DRIFTING}; {:.0} s",
+            "seed {seed}: {} logs, {} drives reported as drifting, {found} of them do, of {DRIFTING}; {:.0} s",
             rows.len(),
             drifts.len(),
             begin.elapsed().as_secs_f64(),
@@ -103,7 +103,7 @@ fn logs_of(seed: u64, drive: u64) -> Result<Vec<FleetRow>, lissom::Error> {
     Ok(rows)
 }
 
-/// Names of the drives whose Coulomb friction is said to grow or fall.
+/// Names of the drives whose Coulomb friction is reported to grow or fall.
 fn drifting(rows: &[FleetRow]) -> Result<Vec<String>, FleetError> {
     let folder = std::env::temp_dir().join(format!("lissom-fleet-{}", std::process::id()));
     let logs = rows.iter().map(|row| FleetLog::new(row.log.clone())).collect();

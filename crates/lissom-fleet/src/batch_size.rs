@@ -7,7 +7,8 @@ const TARGET_S: f64 = 10.0;
 const FIRST: usize = 8;
 /// Largest size: rows of a batch are in memory, and work that a killed worker loses.
 const MOST: usize = 2000;
-/// Batches for each worker of what is left: the last ones are smaller, and the workers end at the same time.
+/// Batches for each worker that the remaining logs are divided into: the last batches are small, so that all workers finish at
+/// about the same time.
 const SHARES: usize = 3;
 /// Time that the last batches take at least \[s\].
 const LEAST_S: f64 = 0.5;

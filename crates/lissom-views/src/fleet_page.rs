@@ -16,9 +16,9 @@ const ROWS_MOST: usize = 20;
 const DRIFTS_MOST: usize = 6;
 /// Digits of values.
 const DIGITS: usize = 4;
-/// Smallest common change that is told.
+/// Smallest common change that is reported.
 const COMMON_LEAST: f64 = 0.05;
-/// Smallest spread of changes over their standard errors that is told.
+/// Smallest spread of changes over their standard errors that is reported.
 const SPREAD_LEAST: f64 = 2.0;
 /// Microseconds of a day.
 const DAY_US: f64 = 86_400e6;

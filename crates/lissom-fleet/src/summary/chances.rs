@@ -7,7 +7,7 @@ pub(super) fn tails(z: f64) -> f64 {
     2.0 * Normal::standard().sf(z.abs())
 }
 
-/// Largest deviation that is told from larger ones: JSON has no infinity.
+/// Upper limit of a deviation: JSON cannot represent infinity.
 const MOST: f64 = 1e6;
 
 /// The deviation of a normal distribution with the same tails as Student's t with these degrees of freedom. Zero without a

@@ -198,7 +198,7 @@ class _Local:
 
     def close(self) -> None:
         self._pool.shutdown(wait=False, cancel_futures=True)
-        for worker in self._started:
+        for worker in list(self._started):
             worker.stop()
         self._pool.shutdown(wait=True)
 

@@ -51,7 +51,7 @@ def run_batch(
     options : mapping
         Options of the file system for addresses.
     started : list, optional
-        Gets the worker, which another thread may stop.
+        Has the worker meanwhile, so that another thread can stop it.
 
     Returns
     -------
@@ -64,17 +64,22 @@ def run_batch(
     if started is not None:
         started.append(worker)
     rows = []
-    with tempfile.TemporaryDirectory(prefix="lissom-") as folder:
-        for place, file in enumerate(_files(worker.logs(), Path(folder), tables, options)):
-            if isinstance(file, LissomError):
-                # Not the log is the cause, but the way to it: it has no row, and is tried again.
-                continue
-            if isinstance(file, OSError):
-                rows.append(worker.missing(place, str(file)))
-                continue
-            rows.append(worker.row(place, file))
-            if file is not None:
-                file.unlink()
+    try:
+        with tempfile.TemporaryDirectory(prefix="lissom-") as folder:
+            for place, file in enumerate(_files(worker.logs(), Path(folder), tables, options)):
+                if isinstance(file, LissomError):
+                    # Not the log is the cause, but the connection: it has no row, and is tried again.
+                    continue
+                if isinstance(file, OSError):
+                    rows.append(worker.missing(place, str(file)))
+                    continue
+                rows.append(worker.row(place, file))
+                if file is not None:
+                    file.unlink()
+    finally:
+        # Its process ends with the last reference to it.
+        if started is not None:
+            started.remove(worker)
     head = f'{{"number":{number},"seconds":{time.perf_counter() - begin!r},"rows":['
     return head.encode() + b",".join(rows) + b"]}"
 

@@ -166,7 +166,7 @@ class ResultPlots:
         return axes
 
     def residual(self, campaign: Campaign | None = None, channels: Sequence[str] | None = None, ax: Any = None) -> NDArray[Any]:
-        """Draw what the result leaves of torque and motion: measured minus predicted values over time.
+        """Plot the residuals of torque and motion: measured minus predicted values over time.
 
         Parameters
         ----------
