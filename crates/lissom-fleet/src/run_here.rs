@@ -15,7 +15,8 @@ use crate::work::{LogWorker, WorkerProgram};
 const TICK: Duration = Duration::from_millis(50);
 
 /// Identifies a fleet with so many worker processes at a time. `show` is called after every batch, and about every
-/// 50 ms. When `stop` is set, the processes are ended, and the rows so far are kept.
+/// 50 ms. When `stop` is set, the processes are ended, and the
+/// rows so far are kept, also those of batches that are not complete.
 ///
 /// # Errors
 /// What [`FleetRun`] and [`LogWorker`] report; rows that were written before are kept.
@@ -47,8 +48,8 @@ pub fn run_here(
                     let batch = lock().next_batch(workers);
                     let Some(batch) = batch else { return };
                     let done = worker.rows(&batch, ended);
-                    let is_error = done.is_err();
-                    if send.send(done).is_err() || is_error {
+                    let is_last = done.is_err() || ended.load(Ordering::Relaxed);
+                    if send.send(done).is_err() || is_last {
                         return;
                     }
                 }
@@ -70,9 +71,10 @@ pub fn run_here(
                 break Err(FleetError::Stopped);
             }
         };
-        // Threads that still work see this and end.
+        // Threads that still work see this, give their rows so far, and end.
         ended.store(true, Ordering::Relaxed);
-        outcome
+        let rest = batches.into_iter().flatten().try_for_each(|rows| lock().take(&rows));
+        outcome.and(rest)
     });
     let ended = run.end();
     outcome.and(ended)

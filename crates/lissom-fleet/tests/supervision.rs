@@ -7,7 +7,7 @@ use std::fs;
 use std::num::NonZeroUsize;
 use std::path::Path;
 use std::sync::atomic::{AtomicBool, Ordering};
-use std::time::Instant;
+use std::time::{Duration, Instant};
 
 use lissom_fleet::{
     ExistingRows, Failure, FleetError, FleetLog, FleetRun, FleetSettings, LogWorker, Progress,
@@ -111,6 +111,24 @@ fn rows_are_kept_and_not_doubled_when_a_run_stops() {
     let progress = go(folder.path(), &program, logs.clone()).unwrap();
     assert_eq!((progress.before, progress.done), (before, 300 - before));
     one_row_each(folder.path(), &logs);
+}
+
+#[test]
+fn rows_of_a_batch_that_is_not_complete_are_kept_when_a_run_stops() {
+    let folder = tempfile::tempdir().unwrap();
+    let program = worker(folder.path(), VERSION);
+    let all = logs(["a", "b", "hang", "c", "d", "e", "f", "g", "h", "i"]);
+    let stop = AtomicBool::new(false);
+    let out = folder.path().join("out");
+    let settings = FleetSettings { time_limit_s: 60.0, ..settings() };
+    let run = FleetRun::begin(&out, settings, all, &ExistingRows::Keep).unwrap();
+    let started = Instant::now();
+    let stopped = run_here(run, NonZeroUsize::MIN, &program, &stop, |progress| {
+        assert_eq!(progress.done, 0);
+        stop.store(started.elapsed() > Duration::from_secs(2), Ordering::Relaxed);
+    });
+    assert!(matches!(stopped, Err(FleetError::Stopped)));
+    assert_eq!(names(folder.path(), "log"), ["a", "b"]);
 }
 
 #[test]

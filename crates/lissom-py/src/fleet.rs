@@ -188,19 +188,23 @@ impl FleetWorker {
         self.batch.logs.iter().map(|log| (log.log.clone(), log.path().to_owned())).collect()
     }
 
-    /// The row of a log, JSON, read from a file.
+    /// The row of a log, JSON, read from a file; nothing if the worker is stopped.
     fn row<'py>(
         &self,
         py: Python<'py>,
         place: usize,
         file: Option<PathBuf>,
-    ) -> PyResult<Bound<'py, PyBytes>> {
+    ) -> PyResult<Option<Bound<'py, PyBytes>>> {
         let mut log = self.batch.logs.get(place).cloned().ok_or_else(internal_error)?;
         log.file = file.or(log.file);
         let row = py.detach(|| {
             self.worker.lock().unwrap_or_else(PoisonError::into_inner).row(&log, &self.stop)
         });
-        as_bytes(py, &row.map_err(|error| fleet_raised(py, &error))?)
+        match row {
+            Ok(row) => as_bytes(py, &row).map(Some),
+            Err(FleetError::Stopped) => Ok(None),
+            Err(error) => Err(fleet_raised(py, &error)),
+        }
     }
 
     /// The row of a log that could not be fetched.
@@ -214,7 +218,7 @@ impl FleetWorker {
         as_bytes(py, &lissom_fleet::FleetRow::failed(log, 0.0, Failure::Missing, message))
     }
 
-    /// Ends the process; a thread that waits for a row gets an exception.
+    /// Ends the process; a thread that waits for a row gets nothing.
     fn stop(&self) {
         self.stop.store(true, Ordering::Relaxed);
     }

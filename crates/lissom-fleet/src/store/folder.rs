@@ -1,13 +1,13 @@
 //! A folder that is written.
 
 use std::collections::HashSet;
-use std::fs::{self, File, OpenOptions, TryLockError};
+use std::fs;
 use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant};
 
-use lissom_io::WriteError;
 use lissom_io::write::{create_folder, write_whole};
 
+use super::folder_lock::FolderLock;
 use super::manifest::{Manifest, PartEntry};
 use super::part::part_bytes;
 use super::part_columns::{FAILURE, LOG, Values, columns};
@@ -20,8 +20,6 @@ use crate::version::VERSION;
 
 /// Shortest time between two writings of the manifest: work of this time is done again if the program is killed.
 const MANIFEST_EVERY: Duration = Duration::from_millis(500);
-/// File that is locked while a run writes.
-const LOCK: &str = ".lock";
 /// Ends of the names of parts.
 const PART: (&str, &str) = ("part-", ".parquet");
 
@@ -33,7 +31,7 @@ pub(crate) struct FleetFolder {
     next_part: u64,
     written: Instant,
     is_behind: bool,
-    _lock: File,
+    _lock: FolderLock,
 }
 
 impl FleetFolder {
@@ -44,7 +42,7 @@ impl FleetFolder {
         existing: &ExistingRows,
     ) -> Result<(Self, HashSet<String>), FleetError> {
         create_folder(path)?;
-        let lock = locked(path)?;
+        let lock = FolderLock::new(path)?;
         let manifest = match Manifest::read(path)? {
             Some(_) if *existing == ExistingRows::Refuse => {
                 return Err(FleetError::NotEmpty { folder: path.to_owned() });
@@ -148,23 +146,6 @@ impl FleetFolder {
             (self.written, self.is_behind) = (Instant::now(), false);
         }
         Ok(())
-    }
-}
-
-/// Locks a folder, as long as the file is open.
-fn locked(folder: &Path) -> Result<File, FleetError> {
-    let path = folder.join(LOCK);
-    let failed = |source| WriteError::File { file: path.display().to_string(), source };
-    let file =
-        OpenOptions::new().create(true).truncate(false).write(true).open(&path).map_err(failed)?;
-    match file.try_lock() {
-        Ok(()) => Ok(file),
-        Err(TryLockError::WouldBlock) => Err(FleetError::InUse { folder: folder.to_owned() }),
-        // A file system without locks: one run at a time is up to the user.
-        Err(TryLockError::Error(error)) if error.kind() == std::io::ErrorKind::Unsupported => {
-            Ok(file)
-        }
-        Err(TryLockError::Error(source)) => Err(failed(source).into()),
     }
 }
 

@@ -1,6 +1,7 @@
 //! The folder of a fleet: Parquet parts that never change, and a manifest that lists those that count.
 
 mod folder;
+mod folder_lock;
 mod manifest;
 mod part;
 mod part_columns;

@@ -55,13 +55,20 @@ impl LogWorker {
         }
     }
 
-    /// Identifies the logs of a batch.
+    /// Identifies the logs of a batch. When `stop` is set, gives the rows so far.
     ///
     /// # Errors
     /// As [`LogWorker::row`].
     pub fn rows(&mut self, batch: &Batch, stop: &AtomicBool) -> Result<BatchRows, FleetError> {
         let started = Instant::now();
-        let rows = batch.logs.iter().map(|log| self.row(log, stop)).collect::<Result<_, _>>()?;
+        let mut rows = Vec::with_capacity(batch.logs.len());
+        for log in &batch.logs {
+            match self.row(log, stop) {
+                Ok(row) => rows.push(row),
+                Err(FleetError::Stopped) => break,
+                Err(error) => return Err(error),
+            }
+        }
         Ok(BatchRows { number: batch.number, rows, seconds: started.elapsed().as_secs_f64() })
     }
 

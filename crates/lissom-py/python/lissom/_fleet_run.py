@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import contextlib
 import json
 import os
 import queue
@@ -18,7 +19,7 @@ from ._campaign import Campaign
 from ._errors import FileError, InputError, LissomError
 from ._fleet import Fleet
 from ._fleet_logs import FleetLogs, is_address
-from ._fleet_work import Columns, run_batch
+from ._fleet_work import Columns, LocalWorkers, run_batch
 from ._progress import Progress, progress_of
 from ._tables import Path, columns, path_text
 
@@ -129,12 +130,16 @@ def fleet(
     tables = {name: _columns(name, log) for name, log in found.tables.items()}
     run = _lissom.FleetRun(target, json.dumps(settings), json.dumps(found.entries), bool(resume), list(again))
     engine = _Local(workers) if executor is None else _Executor(executor)
+    work = _Work(run, engine, tables, options, retries, on_error)
     try:
         with progress_of(progress) as show:
-            _Work(run, engine, tables, options, retries, on_error, show).go()
+            work.go(show)
     finally:
         engine.close()
-        run.end()
+        try:
+            work.take_rest()
+        finally:
+            run.end()
     return Fleet(target)
 
 
@@ -188,18 +193,17 @@ class _Local:
         cores = len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else os.cpu_count() or 1
         self.workers = cores if workers is None else workers
         self._pool = ThreadPoolExecutor(self.workers)
-        self._started: list[Any] = []
+        self._workers_now = LocalWorkers()
 
     def submit(self, batch: bytes, number: int, tables: Mapping[str, Columns], options: Mapping[str, Any]) -> Any:
-        return self._pool.submit(run_batch, batch, number, tables, options, self._started)
+        return self._pool.submit(run_batch, batch, number, tables, options, self._workers_now)
 
     def closed(self) -> bool:
         return False
 
     def close(self) -> None:
         self._pool.shutdown(wait=False, cancel_futures=True)
-        for worker in list(self._started):
-            worker.stop()
+        self._workers_now.stop()
         self._pool.shutdown(wait=True)
 
 
@@ -253,7 +257,6 @@ class _Work:
         options: Mapping[str, Any],
         retries: int,
         on_error: str,
-        progress: Progress | None,
     ) -> None:
         self._run = run
         self._engine = engine
@@ -261,7 +264,6 @@ class _Work:
         self._options = options
         self._retries = retries
         self._on_error = on_error
-        self._progress = progress
         self._done: queue.SimpleQueue[tuple[int, Any]] = queue.SimpleQueue()
         #: Names of the logs of each batch that is being worked on.
         self._given: dict[int, list[str]] = {}
@@ -272,8 +274,14 @@ class _Work:
         self._in_a_row = 0
         self._cause: BaseException | None = None
 
-    def go(self) -> None:
-        """Work until no log waits."""
+    def go(self, progress: Progress | None) -> None:
+        """Work until no log waits.
+
+        Parameters
+        ----------
+        progress : callable, optional
+            Is called with a text and the share of the work that is done.
+        """
         while True:
             self._send()
             if not self._given:
@@ -286,7 +294,8 @@ class _Work:
             else:
                 self._take(number, future)
             self._run.show_rows()
-            self._show()
+            if progress is not None:
+                self._show(progress)
         if self._left:
             message = f"{self._left} logs have no row: their workers were lost ({self._cause})"
             raise LissomError(message, "run the fleet again: it goes on with these logs") from self._cause
@@ -339,9 +348,15 @@ class _Work:
         else:
             self._run.give_back(number)
 
-    def _show(self) -> None:
-        if self._progress is None:
-            return
+    def take_rest(self) -> None:
+        """Take the rows of batches that have ended, or were stopped, since."""
+        with contextlib.suppress(queue.Empty):
+            while True:
+                number, future = self._done.get_nowait()
+                if number in self._given and not future.cancelled() and future.exception() is None:
+                    self._run.take(future.result())
+
+    def _show(self, progress: Progress) -> None:
         at = self._run.progress()
         rows = at["before"] + at["done"]
         text = f"{rows} of {at['logs']} logs"
@@ -349,4 +364,4 @@ class _Work:
             text += f", {at['failed']} failed"
         if at["left_s"] is not None:
             text += f", about {at['left_s']:.0f} s left"
-        self._progress(text, rows / at["logs"])
+        progress(text, rows / at["logs"])

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import os
 import tempfile
+import threading
 import time
 from collections.abc import Iterator, Mapping
 from concurrent.futures import ThreadPoolExecutor
@@ -31,12 +32,52 @@ Columns = Mapping[str, NDArray[Any]]
 Fetched = Path | None | OSError | LissomError
 
 
+class LocalWorkers:
+    """The workers that are at work in threads of this process, so that another thread can stop them."""
+
+    def __init__(self) -> None:
+        self._lock = threading.Lock()
+        self._workers: list[Any] = []
+        self._is_stopped = False
+
+    def add(self, worker: Any) -> None:
+        """Take a worker that begins.
+
+        Parameters
+        ----------
+        worker : FleetWorker
+            The worker; it is stopped at once if all are.
+        """
+        with self._lock:
+            self._workers.append(worker)
+            if self._is_stopped:
+                worker.stop()
+
+    def remove(self, worker: Any) -> None:
+        """Forget a worker: its process ends with the last reference to it.
+
+        Parameters
+        ----------
+        worker : FleetWorker
+            The worker.
+        """
+        with self._lock:
+            self._workers.remove(worker)
+
+    def stop(self) -> None:
+        """Stop all workers, also those that begin later."""
+        with self._lock:
+            self._is_stopped = True
+            for worker in self._workers:
+                worker.stop()
+
+
 def run_batch(
     batch: bytes,
     number: int,
     tables: Mapping[str, Columns],
     options: Mapping[str, Any],
-    started: list[Any] | None = None,
+    workers: LocalWorkers | None = None,
 ) -> bytes:
     """Identify the logs of a batch.
 
@@ -50,8 +91,8 @@ def run_batch(
         Those of its logs that are tables in memory.
     options : mapping
         Options of the file system for addresses.
-    started : list, optional
-        Has the worker meanwhile, so that another thread can stop it.
+    workers : LocalWorkers, optional
+        Has the worker meanwhile. When it is stopped, the rows so far are given.
 
     Returns
     -------
@@ -61,8 +102,8 @@ def run_batch(
     begin = time.perf_counter()
     program, *arguments = own_command()
     worker = _lissom.FleetWorker(batch, program, [*arguments, "fleet", "worker"])
-    if started is not None:
-        started.append(worker)
+    if workers is not None:
+        workers.add(worker)
     rows = []
     try:
         with tempfile.TemporaryDirectory(prefix="lissom-") as folder:
@@ -73,13 +114,15 @@ def run_batch(
                 if isinstance(file, OSError):
                     rows.append(worker.missing(place, str(file)))
                     continue
-                rows.append(worker.row(place, file))
+                row = worker.row(place, file)
+                if row is None:
+                    break
+                rows.append(row)
                 if file is not None:
                     file.unlink()
     finally:
-        # Its process ends with the last reference to it.
-        if started is not None:
-            started.remove(worker)
+        if workers is not None:
+            workers.remove(worker)
     head = f'{{"number":{number},"seconds":{time.perf_counter() - begin!r},"rows":['
     return head.encode() + b",".join(rows) + b"]}"
 
