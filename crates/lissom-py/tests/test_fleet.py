@@ -210,6 +210,35 @@ def test_stopped_and_killed_clients_go_on(folder: Path, tmp_path: Path) -> None:
         complete(run(folder, out))
 
 
+@pytest.mark.skipif(not hasattr(os, "fork"), reason="only where processes fork")
+def test_the_lock_ends_with_the_client(folder: Path, tmp_path: Path) -> None:
+    """Processes of a pool, which outlive a client that is killed, do not keep the folder locked."""
+    program = (
+        "import multiprocessing, sys, time, lissom\n"
+        "from concurrent.futures import ProcessPoolExecutor\n"
+        "def wait(text, share):\n"
+        "    print(text, flush=True)\n"
+        "    if share > 0.1: time.sleep(60)\n"
+        "pool = ProcessPoolExecutor(2, mp_context=multiprocessing.get_context('fork'))\n"
+        "lissom.fleet(*sys.argv[1:3], out=sys.argv[3], pattern=sys.argv[4], executor=pool, progress=wait)\n"
+    )
+    arguments = [str(folder / "logs"), str(folder / "campaign.toml"), str(tmp_path / "out"), PATTERN]
+    command = [sys.executable, "-W", "ignore", "-c", program, *arguments]
+    started = subprocess.Popen(command, stdout=subprocess.PIPE, start_new_session=True)
+    assert started.stdout is not None
+    try:
+        for line in started.stdout:
+            if not line.startswith(b"0 of"):
+                break
+        started.kill()
+        started.wait()
+        os.killpg(started.pid, 0)  # Processes of the pool are there.
+        complete(run(folder, tmp_path / "out"))
+    finally:
+        os.killpg(started.pid, signal.SIGKILL)
+        started.stdout.close()
+
+
 def test_logs_that_hang_or_are_damaged_are_rows(folder: Path, tmp_path: Path) -> None:
     """A log that cannot be read within the time limit, or at all, is one row; the rest goes on."""
     pipe = tmp_path / "pipe.csv"
