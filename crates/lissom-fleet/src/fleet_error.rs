@@ -79,6 +79,12 @@ pub enum FleetError {
         /// The text.
         text: String,
     },
+    /// No finding has this code.
+    #[error("no finding has the code \"{code}\"")]
+    FindingCode {
+        /// The code.
+        code: String,
+    },
     /// A setting is out of its range.
     #[error("{setting} is {value}, but must be positive")]
     Setting {
@@ -167,6 +173,9 @@ impl FleetError {
             Self::Time { .. } => {
                 "times are as in 2026-11-27, 2026-11-27T08:15:00Z, 20261127_081500, or seconds since 1970"
             }
+            Self::FindingCode { .. } => {
+                "codes are those of the findings of a result, e.g. few-periods"
+            }
             Self::Setting { .. } => "give a positive number",
             Self::InUse { .. } => "wait until that run has ended, or write into another folder",
             Self::OtherSettings { .. } => {
@@ -174,6 +183,9 @@ impl FleetError {
             }
             Self::NotEmpty { .. } => "write into another folder, or let the run be resumed",
             Self::NoFleet { .. } => "give the folder into which a fleet was written",
+            Self::Damaged { path, .. } if path.extension().is_some_and(|end| end == "parquet") => {
+                "delete this file and run the fleet again: its logs are then done again"
+            }
             Self::Damaged { .. } => "write into another folder",
             Self::Worker { .. } => "check the memory and the number of processes of this machine",
             Self::Version { .. } => "install the same version of lissom everywhere",

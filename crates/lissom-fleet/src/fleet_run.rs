@@ -68,8 +68,8 @@ impl FleetRun {
     ///
     /// # Errors
     /// [`FleetError::NoLogs`] without logs, [`FleetError::Setting`] if the time limit is not positive,
-    /// [`FleetError::OtherSettings`], [`FleetError::NotEmpty`] (if rows are refused), [`FleetError::InUse`],
-    /// [`FleetError::Damaged`] or [`FleetError::Write`] if the folder cannot be used.
+    /// [`FleetError::FindingCode`] if a refinement asks for a finding that does not exist, [`FleetError::OtherSettings`],
+    /// [`FleetError::NotEmpty`] (if rows are refused), [`FleetError::InUse`], [`FleetError::Damaged`] or [`FleetError::Write`] if the folder cannot be used.
     pub fn begin(
         out: &Path,
         settings: FleetSettings,
@@ -83,6 +83,7 @@ impl FleetRun {
         if !(limit > 0.0 && limit.is_finite()) {
             return Err(FleetError::Setting { setting: "time limit", value: limit });
         }
+        settings.check_codes()?;
         settings.check_campaign(out)?;
         let (folder, done) = FleetFolder::open(out, &settings, existing)?;
         let mut seen = HashSet::new();

@@ -3,6 +3,7 @@
 use std::path::{Path, PathBuf};
 use std::time::Duration;
 
+use lissom::identify::FindingKind;
 use lissom_io::CampaignReader;
 use serde::{Deserialize, Serialize};
 
@@ -73,6 +74,18 @@ impl FleetSettings {
         match reader.only(&folder.join(".no-log")).read() {
             Ok(_) | Err(lissom_io::Error::Log(_)) => Ok(()),
             Err(error) => Err(FleetError::Campaign(Box::new(error))),
+        }
+    }
+
+    /// Checks that the findings exist that ask for a refinement.
+    ///
+    /// # Errors
+    /// [`FleetError::FindingCode`] if one does not.
+    pub(crate) fn check_codes(&self) -> Result<(), FleetError> {
+        let asked = self.refinement.iter().flat_map(|more| &more.codes);
+        match asked.into_iter().find(|code| FindingKind::codes().all(|known| known != *code)) {
+            Some(code) => Err(FleetError::FindingCode { code: code.clone() }),
+            None => Ok(()),
         }
     }
 

@@ -24,7 +24,7 @@ pub(crate) struct FleetArgs {
 pub(crate) enum FleetCommand {
     /// Show the distribution of each parameter, logs and machines that differ, and drift
     Summary(FleetSummaryArgs),
-    /// Write the rows as one table, CSV
+    /// Write the rows as one table, CSV or Parquet
     Table(FleetTableArgs),
     /// Identify the logs that standard input names (for `lissom fleet` itself)
     #[command(hide = true)]
@@ -93,7 +93,7 @@ pub(crate) struct FleetSummaryArgs {
 pub(crate) struct FleetTableArgs {
     /// The folder into which `lissom fleet` wrote
     pub(crate) folder: PathBuf,
-    /// Write the table to FILE
+    /// Write the table to FILE: Parquet if it ends in .parquet, and else CSV
     #[arg(long, value_name = "FILE")]
     pub(crate) out: PathBuf,
 }

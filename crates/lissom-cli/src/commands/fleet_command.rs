@@ -122,6 +122,6 @@ fn logs(args: &FleetRunArgs, like: &Path, out: &Path) -> Result<Vec<FleetLog>, F
 
 fn table(args: &FleetTableArgs) -> Result<ExitCode, Failure> {
     let table = open(&args.folder)?;
-    table.write_csv(&args.out)?;
+    table.write(&args.out)?;
     Ok(ExitCode::SUCCESS)
 }

@@ -43,7 +43,7 @@ impl FleetFolder {
     ) -> Result<(Self, HashSet<String>), FleetError> {
         create_folder(path)?;
         let lock = FolderLock::new(path)?;
-        let manifest = match Manifest::read(path)? {
+        let mut manifest = match Manifest::read(path)? {
             Some(_) if *existing == ExistingRows::Refuse => {
                 return Err(FleetError::NotEmpty { folder: path.to_owned() });
             }
@@ -57,9 +57,13 @@ impl FleetFolder {
                 manifest
             }
         };
+        // A part that the user has deleted: its logs are done again.
+        let listed = manifest.parts.len();
+        manifest.parts.retain(|part| path.join(&part.file).exists());
+        let lacks_part = manifest.parts.len() < listed;
         let numbers = manifest.parts.iter().filter_map(|part| number(&part.file));
         let next_part = numbers.max().map_or(1, |last| last + 1);
-        let (written, is_behind) = (Instant::now(), false);
+        let (written, is_behind) = (Instant::now(), lacks_part);
         let mut folder =
             Self { path: path.to_owned(), manifest, next_part, written, is_behind, _lock: lock };
         if let ExistingRows::KeepBut(failures) = existing {

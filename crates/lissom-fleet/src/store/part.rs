@@ -1,4 +1,4 @@
-//! Parts as Parquet files.
+//! Parts, and other tables, as Parquet files.
 
 use std::path::Path;
 use std::sync::Arc;
@@ -18,25 +18,54 @@ use crate::fleet_error::FleetError;
 
 /// The bytes of a part.
 pub(super) fn part_bytes(columns: &[(String, Values)]) -> Result<Vec<u8>, ParquetError> {
-    let fields: Result<Vec<_>, _> =
-        columns.iter().map(|(name, values)| field(name, values)).collect();
-    let schema = Type::group_type_builder("lissom_fleet").with_fields(fields?).build()?;
-    let compression = Compression::ZSTD(ZstdLevel::default());
-    let properties = WriterProperties::builder().set_compression(compression).build();
-    let mut writer = SerializedFileWriter::new(Vec::new(), Arc::new(schema), Arc::new(properties))?;
-    let mut group = writer.next_row_group()?;
-    for (_, values) in columns {
-        match values {
-            Values::Text(texts) => {
-                let of = |text: &String| ByteArray::from(text.as_str());
-                put::<ByteArrayType, _>(&mut group, texts, of)?;
-            }
-            Values::Number(numbers) => put::<DoubleType, _>(&mut group, numbers, |n| *n)?,
-            Values::Time(times) => put::<Int64Type, _>(&mut group, times, |t| *t)?,
-        }
+    let mut writer = ParquetWriter::new(columns)?;
+    writer.add(columns.iter().map(|(_, values)| values))?;
+    writer.bytes()
+}
+
+/// Writes a table, some rows at a time.
+pub(super) struct ParquetWriter {
+    writer: SerializedFileWriter<Vec<u8>>,
+}
+
+impl ParquetWriter {
+    /// Begins a table with columns of these names and kinds.
+    pub(super) fn new(columns: &[(String, Values)]) -> Result<Self, ParquetError> {
+        let fields: Result<Vec<_>, _> =
+            columns.iter().map(|(name, values)| field(name, values)).collect();
+        let schema = Type::group_type_builder("lissom_fleet").with_fields(fields?).build()?;
+        let compression = Compression::ZSTD(ZstdLevel::default());
+        let properties = WriterProperties::builder().set_compression(compression).build();
+        let writer = SerializedFileWriter::new(Vec::new(), Arc::new(schema), Arc::new(properties))?;
+        Ok(Self { writer })
     }
-    group.close()?;
-    writer.into_inner()
+
+    /// Adds rows: the values of each column.
+    pub(super) fn add<'a>(
+        &mut self,
+        columns: impl IntoIterator<Item = &'a Values>,
+    ) -> Result<(), ParquetError> {
+        let mut group = self.writer.next_row_group()?;
+        for values in columns {
+            match values {
+                Values::Text(texts) => {
+                    let of = |text: &String| ByteArray::from(text.as_str());
+                    put::<ByteArrayType, _>(&mut group, texts, of)?;
+                }
+                Values::Number(numbers) => {
+                    put::<DoubleType, _>(&mut group, numbers, |n| *n)?;
+                }
+                Values::Time(times) => put::<Int64Type, _>(&mut group, times, |t| *t)?,
+            }
+        }
+        group.close()?;
+        Ok(())
+    }
+
+    /// The bytes of the table.
+    pub(super) fn bytes(self) -> Result<Vec<u8>, ParquetError> {
+        self.writer.into_inner()
+    }
 }
 
 fn field(name: &str, values: &Values) -> Result<Arc<Type>, ParquetError> {

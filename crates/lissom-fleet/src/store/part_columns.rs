@@ -36,6 +36,15 @@ impl Values {
         }
     }
 
+    /// Values of the same kind that are all missing.
+    pub(super) fn missing(&self, rows: usize) -> Self {
+        match self {
+            Self::Text(_) => Self::Text(vec![None; rows]),
+            Self::Number(_) => Self::Number(vec![None; rows]),
+            Self::Time(_) => Self::Time(vec![None; rows]),
+        }
+    }
+
     /// The rows for which `kept` is true.
     pub(super) fn only(self, kept: &[bool]) -> Self {
         fn only<T>(values: Vec<T>, kept: &[bool]) -> Vec<T> {

@@ -7,7 +7,7 @@ use std::path::{Path, PathBuf};
 use lissom_io::write::write_whole;
 
 use super::manifest::Manifest;
-use super::part::{part_column, part_names};
+use super::part::{ParquetWriter, part_column, part_names};
 use super::part_columns::{STD, Values, columns};
 use crate::fleet_error::FleetError;
 
@@ -111,12 +111,44 @@ impl FleetTable {
         Ok(all)
     }
 
-    /// Writes all rows as one table: CSV, with times as in 2026-11-27T08:15:00.000000Z.
+    /// Writes all rows as one table: Parquet if the name of the file ends in `.parquet`, and else CSV, with times as in
+    /// 2026-11-27T08:15:00.000000Z.
     ///
     /// # Errors
     /// [`FleetError::Write`] if the file cannot be written or a part cannot be read; [`FleetError::Read`] or
     /// [`FleetError::Damaged`] as [`FleetTable::names`].
-    pub fn write_csv(&self, path: &Path) -> Result<(), FleetError> {
+    pub fn write(&self, path: &Path) -> Result<(), FleetError> {
+        if path.extension().is_some_and(|end| end.eq_ignore_ascii_case("parquet")) {
+            self.write_parquet(path)
+        } else {
+            self.write_csv(path)
+        }
+    }
+
+    fn write_parquet(&self, path: &Path) -> Result<(), FleetError> {
+        let mut kinds = columns(&[]);
+        if !self.manifest.parts.is_empty() {
+            kinds.clear();
+            for name in self.names()? {
+                let empty = self.column(&name)?.map(|values| values.missing(0));
+                kinds.extend(empty.map(|values| (name, values)));
+            }
+        }
+        Ok(write_whole(path, |out| {
+            let mut writer = ParquetWriter::new(&kinds)?;
+            for part in &self.manifest.parts {
+                let path = self.folder.join(&part.file);
+                let rows = kinds.iter().map(|(name, kind)| {
+                    let found = part_column(&path, name).map_err(io::Error::other)?;
+                    Ok(found.unwrap_or_else(|| kind.missing(part.rows)))
+                });
+                writer.add(&rows.collect::<io::Result<Vec<_>>>()?)?;
+            }
+            out.write_all(&writer.bytes()?)
+        })?)
+    }
+
+    fn write_csv(&self, path: &Path) -> Result<(), FleetError> {
         let names = self.names()?;
         Ok(write_whole(path, |out| {
             let mut writer = csv::Writer::from_writer(out);
