@@ -129,6 +129,9 @@ fn rows_summary_page_and_table() {
     let table = output(lissom(folder).args(["fleet", "table", "out", "--out", "rows.csv"]));
     assert!(table.status.success());
     assert_eq!(fs::read_to_string(folder.join("rows.csv")).unwrap().lines().count(), 25);
+    let table = output(lissom(folder).args(["fleet", "table", "out", "--out", "rows.parquet"]));
+    assert!(table.status.success(), "{}", said(&table));
+    assert_eq!(&fs::read(folder.join("rows.parquet")).unwrap()[..4], b"PAR1");
     // The same command again has nothing to do; other settings belong into another folder.
     assert!(said(&output(&mut command(folder))).contains("24 logs had rows before"));
     let other = output(command(folder).args(["--effort", "normal"]));
@@ -181,6 +184,19 @@ fn tables_of_logs_and_wrong_input() {
             vec!["fleet", "--table", "plan.toml", "--like", "campaign.toml", "--out", "x"],
             "there is no column \"log\"",
         ),
+        (
+            vec![
+                "fleet",
+                "logs",
+                "--like",
+                "campaign.toml",
+                "--out",
+                "x",
+                "--refine-on",
+                "few-perids",
+            ],
+            "no finding has the code \"few-perids\"",
+        ),
         (vec!["fleet", "summary", "logs"], "there is no manifest.json in it"),
         (vec!["fleet", "table", "of-table", "--out", "no/such/folder.csv"], "cannot be written"),
     ] {
@@ -223,4 +239,42 @@ fn a_stopped_or_killed_run_goes_on() {
         assert!(done.status.success(), "{}", said(&done));
         one_row_each(folder);
     }
+}
+
+#[test]
+#[cfg(unix)]
+fn a_full_disk_ends_the_run_and_loses_no_row() {
+    let folder = fleet();
+    let folder = folder.path();
+    // A limit of the size of files has the manifest fit, and not the parts: a write fails as on a full disk.
+    let script = "ulimit -f 6; trap '' XFSZ; exec \"$@\"";
+    let limited = command(folder);
+    let mut limit = Command::new("sh");
+    limit.current_dir(folder).args(["-c", script, "sh"]).arg(limited.get_program());
+    let full = output(limit.args(limited.get_args()));
+    assert_eq!(full.status.code(), Some(1), "{}", said(&full));
+    assert!(said(&full).contains("part-000001.parquet: cannot be written"), "{}", said(&full));
+    assert_eq!(open(&folder.join("out")).unwrap().rows(), 0);
+    let done = output(&mut command(folder));
+    assert!(done.status.success(), "{}", said(&done));
+    one_row_each(folder);
+}
+
+#[test]
+fn a_damaged_part_is_done_again_if_it_is_deleted() {
+    let folder = fleet();
+    let folder = folder.path();
+    assert!(output(&mut command(folder)).status.success());
+    let part = folder.join("out/part-000001.parquet");
+    fs::write(&part, "PAR1").unwrap();
+    let mut summary = lissom(folder);
+    summary.args(["fleet", "summary", "out"]);
+    for mut broken in [command(folder), summary] {
+        let broken = output(&mut broken);
+        assert_eq!(broken.status.code(), Some(1), "{}", said(&broken));
+        assert!(said(&broken).contains("hint: delete this file"), "{}", said(&broken));
+    }
+    fs::remove_file(&part).unwrap();
+    assert!(output(&mut command(folder)).status.success());
+    one_row_each(folder);
 }

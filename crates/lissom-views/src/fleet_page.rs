@@ -31,8 +31,13 @@ pub fn page(title: &str, summary: &FleetSummary) -> String {
     }
     page = page.heading("Parameters").table(&parameter_table(summary));
     let mut plotted = HashSet::new();
-    for parameter in &summary.parameters {
-        page = one_parameter(page, parameter, &mut plotted);
+    for (first, keys) in alike(summary) {
+        for parameter in summary.parameters.iter().filter(|p| keys.contains(&p.key.as_str())) {
+            page = one_parameter(page, parameter, (parameter.key != first.key).then_some(first));
+            if parameter.key == first.key {
+                page = conspicuous_tables(page, parameter, &mut plotted);
+            }
+        }
     }
     if !summary.failures.is_empty() {
         page = page.heading("Logs without a result").table(&failure_table(&summary.failures));
@@ -57,9 +62,35 @@ pub fn in_words(summary: &FleetSummary) -> String {
     words.join(", ") + "."
 }
 
-/// What is conspicuous, a sentence for each parameter in which something is.
+/// Parameters in which the same machines change and the same machines and logs differ, as in Coulomb friction in each
+/// direction: the first of them, with the keys of all. Parameters in which nothing does are alone.
+pub fn alike(summary: &FleetSummary) -> Vec<(&ParameterSummary, Vec<&str>)> {
+    let mut groups: Vec<(&ParameterSummary, Vec<&str>)> = Vec::new();
+    for parameter in &summary.parameters {
+        let same = groups.iter_mut().find(|(first, _)| is_alike(first, parameter));
+        match same {
+            Some((_, keys)) => keys.push(&parameter.key),
+            None => groups.push((parameter, vec![&parameter.key])),
+        }
+    }
+    groups
+}
+
+fn is_alike(a: &ParameterSummary, b: &ParameterSummary) -> bool {
+    fn who(p: &ParameterSummary) -> [HashSet<&str>; 3] {
+        [
+            p.drifts.iter().map(|drift| drift.machine.as_str()).collect(),
+            p.outlying_machines.iter().map(|machine| machine.machine.as_str()).collect(),
+            p.outlying_logs.iter().map(|log| log.log.as_str()).collect(),
+        ]
+    }
+    let found = who(a);
+    found.iter().any(|names| !names.is_empty()) && found == who(b)
+}
+
+/// What is conspicuous, a sentence for each parameter in which something is, or several that are alike.
 pub fn conspicuous(summary: &FleetSummary) -> Vec<String> {
-    let sentence = |parameter: &ParameterSummary| {
+    let sentence = |(parameter, keys): (&ParameterSummary, Vec<&str>)| {
         let mut parts = Vec::new();
         let mut part = |count: usize, what: &str, one: &str, several: &str| match count {
             0 => {}
@@ -79,7 +110,7 @@ pub fn conspicuous(summary: &FleetSummary) -> Vec<String> {
                 "changes of machines are {spread} times as large as scatter explains: many change, each in its own way"
             ));
         }
-        (!parts.is_empty()).then(|| format!("{}: {}.", parameter.key, parts.join(", ")))
+        (!parts.is_empty()).then(|| format!("{}: {}.", keys.join(", "), parts.join(", ")))
     };
     if summary.rows == 0 {
         return vec!["There are no rows yet.".to_owned()];
@@ -87,7 +118,7 @@ pub fn conspicuous(summary: &FleetSummary) -> Vec<String> {
     if summary.identified == 0 {
         return vec!["No log was identified.".to_owned()];
     }
-    let found: Vec<String> = summary.parameters.iter().filter_map(sentence).collect();
+    let found: Vec<String> = alike(summary).into_iter().filter_map(sentence).collect();
     if found.is_empty() { vec!["No machine or log is conspicuous.".to_owned()] } else { found }
 }
 
@@ -135,11 +166,11 @@ pub fn parameter_table(summary: &FleetSummary) -> Table {
     table
 }
 
-/// Adds a parameter. Machines in `plotted` have a plot already: often several parameters of a machine drift together.
-fn one_parameter<'a>(
+/// Adds a parameter, with `like` one in which the same machines and logs are conspicuous.
+fn one_parameter(
     page: Page,
-    parameter: &'a ParameterSummary,
-    plotted: &mut HashSet<&'a str>,
+    parameter: &ParameterSummary,
+    like: Option<&ParameterSummary>,
 ) -> Page {
     let d = &parameter.distribution;
     let mut words = vec![format!(
@@ -158,8 +189,20 @@ fn one_parameter<'a>(
             percent(change)
         ));
     }
-    let mut page = page.heading(&parameter.key).paragraph(&words.join(" "));
-    page = page.figure(&histogram(parameter), &caption(parameter));
+    if let Some(like) = like {
+        words.push(format!("The same machines and logs are conspicuous as in {}.", like.key));
+    }
+    let page = page.heading(&parameter.key).paragraph(&words.join(" "));
+    page.figure(&histogram(parameter), &caption(parameter))
+}
+
+/// Adds the machines and logs that are conspicuous. Machines in `plotted` have a plot already: often several parameters of a
+/// machine drift together.
+fn conspicuous_tables<'a>(
+    mut page: Page,
+    parameter: &'a ParameterSummary,
+    plotted: &mut HashSet<&'a str>,
+) -> Page {
     if !parameter.drifts.is_empty() {
         page = page.table(&drift_table(&parameter.drifts));
         let new = parameter.drifts.iter().filter(|drift| plotted.insert(&drift.machine));

@@ -13,7 +13,7 @@ pub(crate) fn print(summary: &FleetSummary) {
         line(&sentence);
     }
     section(&fleet_page::parameter_table(summary));
-    for parameter in &summary.parameters {
+    for (parameter, keys) in fleet_page::alike(summary) {
         let parts = [
             (!parameter.drifts.is_empty()).then(|| fleet_page::drift_table(&parameter.drifts)),
             (!parameter.outlying_machines.is_empty())
@@ -22,7 +22,7 @@ pub(crate) fn print(summary: &FleetSummary) {
                 .then(|| fleet_page::log_table(&parameter.outlying_logs)),
         ];
         for mut part in parts.into_iter().flatten() {
-            part.caption = format!("{}: {}", parameter.key, part.caption);
+            part.caption = format!("{}: {}", keys.join(", "), part.caption);
             section(&part);
         }
     }
