@@ -45,6 +45,23 @@ struct Own {
     values: Vec<f64>,
 }
 
+/// The logs of a run as the campaign names them: its own, and those of signals that have one.
+pub(super) fn logs_of_run(signals: &Signals, spec: &RunSpec) -> Vec<PathBuf> {
+    let motor = signals.motor_log.iter().map(|own| own.of_run(spec, spec.motor_file.as_deref()));
+    let mut files = spec.tip_files.iter();
+    let tips = signals.tip_logs.iter().flatten();
+    let tips = tips.map(|own| own.of_run(spec, files.next().map(PathBuf::as_path)));
+    [spec.file.clone()].into_iter().chain(motor).chain(tips).collect()
+}
+
+impl OwnLog {
+    /// The log for a run, which may name it itself.
+    fn of_run(&self, spec: &RunSpec, named: Option<&Path>) -> PathBuf {
+        let general = || PathBuf::from(log::of_run(&self.file, &spec.file));
+        named.map_or_else(general, Path::to_owned)
+    }
+}
+
 impl RunLog<'_> {
     /// Adds the signals of other logs, at the stamps of the run's log; rows outside of one of the logs are left out.
     pub(super) fn join(&self, of: &mut RunSignals) -> Result<(), Error> {
@@ -166,10 +183,9 @@ impl RunLog<'_> {
         of_run: Option<&Path>,
         columns: &[&ColumnRef],
     ) -> Result<OwnColumns, Error> {
-        let named = PathBuf::from(log::of_run(&own.file, &self.spec.file));
-        let relative = of_run.unwrap_or(&named);
-        let path = self.places.path(relative);
-        let in_memory = self.places.in_memory(relative);
+        let relative = own.of_run(self.spec, of_run);
+        let path = self.places.path(&relative);
+        let in_memory = self.places.in_memory(&relative);
         let file = in_memory
             .as_ref()
             .map_or_else(|| path.display().to_string(), |part| part.label.clone());

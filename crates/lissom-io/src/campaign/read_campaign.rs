@@ -8,9 +8,11 @@ use super::campaign_load::{self, CampaignLoad};
 use super::campaign_signals::signals;
 use super::load_runs::load;
 use super::memory_logs::{LogPlaces, MemoryLogs};
+use super::own_logs::logs_of_run;
 use super::run_spec::{RunSpec, runs};
 use crate::config::{ConfigError, Source, Table};
 use crate::io_error::Error;
+use crate::log::LogPath;
 use crate::units::Dimension;
 
 /// Reads a campaign: its description from a file or a text, its logs from files or from memory.
@@ -20,6 +22,7 @@ pub struct CampaignReader {
     source: Result<Source, ConfigError>,
     logs: MemoryLogs,
     only: Vec<PathBuf>,
+    folder: Option<PathBuf>,
     options: ReadOptions,
 }
 
@@ -37,7 +40,7 @@ impl CampaignReader {
 
     fn new(source: Result<Source, ConfigError>) -> Self {
         let (logs, options) = (MemoryLogs::default(), ReadOptions::default());
-        Self { source, logs, only: Vec::new(), options }
+        Self { source, logs, only: Vec::new(), folder: None, options }
     }
 
     /// Takes logs from memory: a `file` of the campaign that is the name of one of them is that log.
@@ -53,6 +56,34 @@ impl CampaignReader {
         self
     }
 
+    /// Reads the logs of the runs in this folder, in place of the campaign's own.
+    pub fn in_folder(mut self, folder: &Path) -> Self {
+        self.folder = Some(folder.to_owned());
+        self
+    }
+
+    /// The files of the campaign's runs, as it names them: of each run its log, then the logs of signals that have one of their
+    /// own. Each file is listed once, without a group of channels in it. No log is read.
+    ///
+    /// # Errors
+    /// [`Error::Config`] and [`Error::Campaign`] for signals and runs.
+    pub fn run_files(self) -> Result<Vec<PathBuf>, Error> {
+        let source = self.source?;
+        let document = source.parse()?;
+        let root = source.root(&document);
+        let signals = signals(&root.need("signals")?.table()?)?;
+        let mut files = Vec::new();
+        for spec in runs(&root.need("runs")?, None)? {
+            for log in logs_of_run(&signals, &spec) {
+                let file = LogPath::of(&log).file;
+                if !files.contains(&file) {
+                    files.push(file);
+                }
+            }
+        }
+        Ok(files)
+    }
+
     /// Sets limits for reading.
     pub fn options(mut self, options: ReadOptions) -> Self {
         self.options = options;
@@ -65,7 +96,10 @@ impl CampaignReader {
     /// [`Error::Config`] and [`Error::Campaign`] for the description itself and its `arm.toml`,
     /// [`Error::Log`] and [`Error::Record`] for the logs.
     pub fn read(self) -> Result<CampaignFile, Error> {
-        read(&self.source?, &self.only, &self.logs, &self.options)
+        let source = self.source?;
+        let folder = self.folder.as_deref().unwrap_or(source.folder());
+        let places = LogPlaces { folder, memory: &self.logs };
+        read(&source, &self.only, places, &self.options)
     }
 }
 
@@ -88,7 +122,7 @@ pub fn read_campaign_like(path: &Path, log: &Path) -> Result<CampaignFile, Error
 fn read(
     source: &Source,
     only: &[PathBuf],
-    memory: &MemoryLogs,
+    places: LogPlaces<'_>,
     options: &ReadOptions,
 ) -> Result<CampaignFile, Error> {
     let document = source.parse()?;
@@ -107,12 +141,13 @@ fn read(
         Some(value) => analysis(&value.table()?)?,
         None => (AnalysisOptions::default(), None),
     };
-    let (folder, runs) = if only.is_empty() {
-        (source.folder(), runs(&root.need("runs")?, skip_s)?)
+    let (places, runs) = if only.is_empty() {
+        (places, runs(&root.need("runs")?, skip_s)?)
     } else {
-        (Path::new(""), only.iter().map(|log| RunSpec::of_log(log, skip_s)).collect())
+        let here = LogPlaces { folder: Path::new(""), ..places };
+        (here, only.iter().map(|log| RunSpec::of_log(log, skip_s)).collect())
     };
-    let campaign = load(LogPlaces { folder, memory }, &signals, command, &runs, options)?;
+    let campaign = load(places, &signals, command, &runs, options)?;
     let campaign = match on_motor {
         CampaignLoad { mgl_nm: Some(mgl_nm), .. } => campaign.with_known_gravity(mgl_nm)?,
         CampaignLoad { gravity: true, .. } => campaign.with_gravity()?,

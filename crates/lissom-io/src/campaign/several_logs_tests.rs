@@ -5,7 +5,7 @@ use std::fmt::Write as _;
 use lissom_core::record::Note;
 
 use super::campaign_tests::{folder, read_logs};
-use super::read_campaign;
+use super::{CampaignReader, read_campaign};
 
 const HEAD: &str = "[signals]\ntime = { column = \"t\", unit = \"s\" }\ncurrent = { column = \"i\", unit = \"A\", hold = \"sampled\" }\n";
 const MOTOR: &str = "motor = { column = \"q\", unit = \"rad\" }\n";
@@ -102,6 +102,31 @@ fn a_tip_may_have_a_log_and_a_clock_of_its_own() {
     let error = read_campaign(&path).unwrap_err();
     assert!(error.to_string().contains("a-camera.csv: end does not show the motion of"), "{error}");
     assert!(error.hint().unwrap().contains("clock = \"shared\""));
+}
+
+#[test]
+fn the_files_of_runs_are_listed_and_read_in_another_folder() {
+    let text = format!(
+        "{HEAD}{}tips = [{{ column = \"p\", unit = \"rad\", file = \"tip.csv\" }}]
+[[runs]]\nfile = \"slow.h5::run*\"\n[[runs]]\nfile = \"b/chirp.csv\"\nmotor_file = \"own.csv\"\ntip_files = \"c.csv\"\n",
+        MOTOR.replace(" }", ", file = \"{run}-motor.csv\" }")
+    );
+    let files = |text: &str| CampaignReader::of_text("campaign", text.to_owned()).run_files();
+    let named: Vec<_> =
+        files(&text).unwrap().iter().map(|file| file.display().to_string()).collect();
+    let expected = ["slow.h5", "slow-motor.csv", "tip.csv", "b/chirp.csv", "own.csv", "c.csv"];
+    assert_eq!(named, expected);
+    // A file that two runs share is listed once.
+    let shared =
+        format!("{HEAD}{MOTOR}[[runs]]\nfile = \"a.h5::1\"\n[[runs]]\nfile = \"a.h5::2\"\n");
+    assert_eq!(files(&shared).unwrap().len(), 1);
+    assert!(files(&format!("{HEAD}{MOTOR}")).unwrap_err().to_string().contains("has no `runs`"));
+
+    let rows = || (0..200).map(|k| 0.01 * f64::from(k)).map(|t| [t, t, angle(t)]);
+    let place = folder("", &[("a.csv", &table("t,i,q", rows()))]);
+    let text = format!("{HEAD}{MOTOR}[[runs]]\nfile = \"a.csv\"\nskip = \"1 s\"\n");
+    let read = CampaignReader::of_text("elsewhere/campaign", text).in_folder(place.path()).read();
+    assert_eq!(read.unwrap().campaign.runs[0].len(), 100);
 }
 
 #[test]
