@@ -207,6 +207,99 @@ fn tables_of_logs_and_wrong_input() {
     }
 }
 
+#[test]
+fn folders_are_logs() {
+    const DAYS: [&str; 3] = ["m0/2026-01-01", "m0/2026-02-01", "m1/2026-01-01"];
+    let folder = tempfile::tempdir().unwrap();
+    let folder = folder.path();
+    let campaign = format!(
+        "{CAMPAIGN}[[runs]]\nfile = \"slow.csv\"\n[[runs]]\nfile = \"fast.csv\"\nskip = \"0.5 s\"\n"
+    );
+    fs::write(folder.join("campaign.toml"), &campaign).unwrap();
+    fs::write(folder.join("arm.toml"), ARM).unwrap();
+    for (seed, day) in DAYS.iter().enumerate() {
+        let sine = |name, f| {
+            format!(
+                "{{ name = \"{name}\", sine = {{ frequency = \"{f} Hz\", amplitude = \"0.4 rad\" }}, periods = 6 }}"
+            )
+        };
+        let plan = format!("seed = {seed}\nruns = [{}, {}]", sine("slow", 0.5), sine("fast", 1.5));
+        fs::write(folder.join("plan.toml"), plan).unwrap();
+        let out = format!("logs/{day}");
+        let made = ["rig", "arm.toml", "--campaign", "plan.toml", "--out", &out];
+        assert!(output(lissom(folder).args(made)).status.success());
+        fs::write(folder.join(&out).join("campaign.toml"), &campaign).unwrap();
+    }
+    fs::remove_file(folder.join("logs/m1/2026-01-01/fast.csv")).unwrap();
+    fs::create_dir(folder.join("logs/notes")).unwrap();
+    fs::write(folder.join("logs/notes/note.csv"), "").unwrap();
+    let like = ["--like", "campaign.toml", "--by-folder", "--results", "--refine", "none"];
+    let pattern = ["--pattern", "{machine}/{time}"];
+    let done =
+        output(lissom(folder).args(["fleet", "logs", "--out", "out"]).args(like).args(pattern));
+    let said_done = said(&done);
+    assert!(said_done.contains("3 rows: 2 identified, 1 failed\n  1 missing"), "{said_done}");
+    let table = open(&folder.join("out")).unwrap();
+    let texts = |column: &str| match table.column(column).unwrap() {
+        Some(Values::Text(texts)) => texts.into_iter().map(Option::unwrap_or_default).collect(),
+        _ => Vec::new(),
+    };
+    let (logs, machines) = (texts("log"), texts("machine"));
+    let (messages, results, hashes) = (texts("message"), texts("result"), texts("input_sha256"));
+    for (row, log) in logs.iter().enumerate() {
+        let day = DAYS.iter().find(|day| log.ends_with(*day)).unwrap();
+        assert_eq!(machines[row], day[..2]);
+        if day.starts_with("m1") {
+            assert!(
+                messages[row].contains("2026-01-01/fast.csv: cannot be opened"),
+                "{messages:?}"
+            );
+            continue;
+        }
+        let alone = Path::new(log).join("campaign.toml");
+        let alone =
+            output(lissom(folder).args(["identify", "--effort", "quick"]).arg(alone).arg("--json"));
+        let parameters = |json: &[u8]| {
+            let value: serde_json::Value = serde_json::from_slice(json).unwrap();
+            value["verdict"].clone()
+        };
+        assert_eq!(parameters(results[row].as_bytes()), parameters(&alone.stdout));
+        assert_eq!(hashes[row].len(), 64);
+    }
+    assert!(hashes[0] != hashes[1]);
+    // Folders of a table; one without any file is a row.
+    fs::write(folder.join("logs.csv"), "log\nlogs/m0/2026-01-01\nlogs/notes\n").unwrap();
+    let done =
+        output(lissom(folder).args(["fleet", "--table", "logs.csv", "--out", "table"]).args(like));
+    assert!(said(&done).contains("2 rows: 1 identified, 1 failed\n  1 missing"), "{}", said(&done));
+    fs::write(folder.join("no-runs.toml"), CAMPAIGN).unwrap();
+    fs::write(folder.join("up.toml"), campaign.replace("slow", "../slow")).unwrap();
+    for (arguments, problem) in [
+        (
+            ["logs/notes", "campaign.toml", "x"],
+            "logs/notes: no folder has files of the runs: slow.csv, fast.csv",
+        ),
+        (["logs", "no-runs.toml", "x"], "no-runs.toml has no `runs`"),
+        (
+            ["logs", "up.toml", "x"],
+            "up.toml: the file \"../slow.csv\" is not in the folder of a log",
+        ),
+        (["plan.toml", "campaign.toml", "x"], "plan.toml: cannot be read"),
+        (
+            ["logs", "campaign.toml", "./logs"],
+            "logs: the rows cannot be written into a folder with logs",
+        ),
+    ] {
+        let [logs, like, out] = arguments;
+        let arguments = ["fleet", logs, "--like", like, "--out", out, "--by-folder"];
+        let failed = output(lissom(folder).args(arguments));
+        assert_eq!(failed.status.code(), Some(1), "{arguments:?}: {}", said(&failed));
+        assert!(said(&failed).contains(problem), "{arguments:?}: {}", said(&failed));
+        assert!(said(&failed).contains("hint: "), "{arguments:?}");
+        assert!(!folder.join("x").exists());
+    }
+}
+
 /// Starts the command, waits until it has rows, and does something to it.
 #[cfg(unix)]
 fn interrupted(folder: &Path, signal: &str) -> Child {

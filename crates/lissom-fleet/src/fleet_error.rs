@@ -52,13 +52,15 @@ pub enum FleetError {
         /// The pattern.
         pattern: String,
     },
-    /// No file has the form that the pattern states.
-    #[error("{place}: none of {files} files ends like \"{pattern}\"")]
+    /// No file or folder has the form that the pattern states.
+    #[error("{place}: none of {count} {kind} ends like \"{pattern}\"")]
     NoneLikePattern {
         /// Where they were looked for.
         place: String,
-        /// Number of files.
-        files: usize,
+        /// Number of files or folders.
+        count: usize,
+        /// `files` or `folders`.
+        kind: &'static str,
         /// The pattern.
         pattern: String,
     },
@@ -71,6 +73,20 @@ pub enum FleetError {
     /// The campaign that describes every log cannot be used.
     #[error(transparent)]
     Campaign(Box<lissom_io::Error>),
+    /// The files of the campaign's runs cannot be found in folders.
+    #[error("{place}: {problem}")]
+    Runs {
+        /// The campaign, or where they were looked for.
+        place: String,
+        /// What is wrong.
+        problem: String,
+    },
+    /// The rows would be written into a folder with logs.
+    #[error("{}: the rows cannot be written into a folder with logs", folder.display())]
+    LogsFolder {
+        /// The folder.
+        folder: PathBuf,
+    },
     /// A time cannot be read.
     #[error("{log}: \"{text}\" is not a time")]
     Time {
@@ -153,6 +169,12 @@ pub enum FleetError {
 }
 
 impl FleetError {
+    /// The error that no folder has files of the campaign's runs.
+    pub fn no_folder(place: String, run_files: &[String]) -> Self {
+        let files = run_files.join(", ");
+        Self::Runs { place, problem: format!("no folder has files of the runs: {files}") }
+    }
+
     /// What the user can do.
     pub fn hint(&self) -> Option<String> {
         let hint = match self {
@@ -170,6 +192,10 @@ impl FleetError {
             Self::NotLikePattern { .. } => {
                 "correct the pattern, leave out this log, or give a table of logs"
             }
+            Self::Runs { .. } => {
+                "name the files of a log by the runs of the campaign, relative to its folder: file = \"slow.csv\""
+            }
+            Self::LogsFolder { .. } => "write them into another folder",
             Self::Time { .. } => {
                 "times are as in 2026-11-27, 2026-11-27T08:15:00Z, 20261127_081500, or seconds since 1970"
             }

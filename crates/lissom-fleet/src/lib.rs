@@ -39,7 +39,7 @@ pub use lissom_io::fleet::{
     Distribution, Drift, DriftValue, FailureCount, FindingCount, FleetSummary, Histogram,
     LogOutlier, MachineOutlier, ParameterSummary,
 };
-pub use list_logs::{ListedLogs, LogPattern, logs_of_paths, logs_of_table};
+pub use list_logs::{ListedLogs, LogPattern, folders_with, logs_of_paths, logs_of_table};
 pub use log_time::{date, time_us};
 pub use row::{Failure, FleetRow, RowEstimate, RowOutcome, RowResult};
 pub use run_here::run_here;

@@ -70,33 +70,59 @@ fn time(log: &str, text: String) -> Result<i64, FleetError> {
     time_us(&text).ok_or_else(|| FleetError::Time { log: log.to_owned(), text })
 }
 
+/// The folders that have files of the campaign's runs, as `run_files` of the settings gives them, in the order of the files. A
+/// file counts for one of the runs: the one whose name has the most folders.
+pub fn folders_with(files: &[PathBuf], run_files: &[String]) -> Vec<PathBuf> {
+    let depths: Vec<(&Path, usize)> =
+        run_files.iter().map(Path::new).map(|run| (run, run.components().count())).collect();
+    let mut seen = HashSet::new();
+    let folder = |file: &PathBuf| {
+        let of_file = depths.iter().filter(|(run, _)| file.ends_with(run));
+        let (_, depth) = of_file.max_by_key(|(_, depth)| depth)?;
+        let folder = file.ancestors().nth(*depth)?.to_owned();
+        seen.insert(folder.clone()).then_some(folder)
+    };
+    files.iter().filter_map(folder).collect()
+}
+
 /// Logs of paths.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct ListedLogs {
     /// The logs.
     pub logs: Vec<FleetLog>,
-    /// Number of files below folders that are left out, because they do not end like the pattern.
+    /// Number of files below folders, or of folders that are logs, that are left out because they do not end like the pattern.
     pub unlike: usize,
+    /// Number of links to folders, devices and pipes below folders, which are left out.
+    pub special: usize,
 }
 
 /// The logs below folders, in the order of their names, and files as they are given. Below folders, files and folders whose
-/// name begins with a dot are left out, links to folders, what is in `except`, and files that do not end like the pattern. A
-/// log that is given twice is one log.
+/// name begins with a dot are left out, links to folders, devices and pipes, what is in `except`, and files that do not end like
+/// the pattern. With `run_files`, each folder that has some of them is a log ([`folders_with`]), and all paths are folders. A log
+/// that is given twice is one log.
 ///
 /// # Errors
-/// [`FleetError::Read`] if a path does not exist or a folder cannot be read, [`FleetError::NoLogs`] if there are none, and what
-/// [`LogPattern::read`] reports.
+/// [`FleetError::Read`] if a path does not exist or a folder cannot be read, [`FleetError::NoLogs`] or [`FleetError::Runs`] if
+/// there are none, [`FleetError::LogsFolder`] if a folder is in `except`, and what [`LogPattern::read`] reports.
 pub fn logs_of_paths(
     paths: &[PathBuf],
     pattern: Option<&LogPattern>,
     except: &[&Path],
+    run_files: Option<&[String]>,
 ) -> Result<ListedLogs, FleetError> {
-    let (mut files, mut unlike) = (Vec::new(), 0);
+    let (mut files, mut unlike, mut special) = (Vec::new(), 0, 0);
     let except: Vec<PathBuf> = except.iter().filter_map(|path| path.canonicalize().ok()).collect();
     for path in paths {
-        if path.is_dir() {
+        if path.is_dir() || run_files.is_some() {
+            let failed = |source| FleetError::Read { path: path.clone(), source };
+            if except.contains(&path.canonicalize().map_err(failed)?) {
+                return Err(FleetError::LogsFolder { folder: path.clone() });
+            }
             let mut found = Vec::new();
-            below(path, &except, &mut found)?;
+            below(&std::path::absolute(path).map_err(failed)?, &except, &mut found, &mut special)?;
+            if let Some(run_files) = run_files {
+                found = folders_with(&found, run_files);
+            }
             let all = found.len();
             found.retain(|file| pattern.is_none_or(|pattern| pattern.fits(file)));
             unlike += all - found.len();
@@ -111,10 +137,14 @@ pub fn logs_of_paths(
     if files.is_empty() {
         let places: Vec<String> = paths.iter().map(|path| path.display().to_string()).collect();
         let place = places.join(", ");
-        return Err(match pattern {
-            Some(pattern) if unlike > 0 => {
-                FleetError::NoneLikePattern { place, files: unlike, pattern: pattern.text.clone() }
-            }
+        return Err(match (pattern, run_files) {
+            (Some(pattern), _) if unlike > 0 => FleetError::NoneLikePattern {
+                place,
+                count: unlike,
+                kind: if run_files.is_some() { "folders" } else { "files" },
+                pattern: pattern.text.clone(),
+            },
+            (_, Some(run_files)) => FleetError::no_folder(place, run_files),
             _ => FleetError::NoLogs { place },
         });
     }
@@ -130,7 +160,7 @@ pub fn logs_of_paths(
         }
         logs.push(log);
     }
-    Ok(ListedLogs { logs, unlike })
+    Ok(ListedLogs { logs, unlike, special })
 }
 
 /// The name of a log: its path from the root, so that it is the same from every folder. Links keep their names.
@@ -150,7 +180,13 @@ fn name(file: &Path) -> Result<String, FleetError> {
     path.to_str().map(str::to_owned).ok_or_else(|| FleetError::Name { path: file.to_owned() })
 }
 
-fn below(folder: &Path, except: &[PathBuf], files: &mut Vec<PathBuf>) -> Result<(), FleetError> {
+/// Adds the files below a folder, and the number of links to folders, devices and pipes.
+fn below(
+    folder: &Path,
+    except: &[PathBuf],
+    files: &mut Vec<PathBuf>,
+    special: &mut usize,
+) -> Result<(), FleetError> {
     let failed = |source| FleetError::Read { path: folder.to_owned(), source };
     let mut entries =
         fs::read_dir(folder).and_then(Iterator::collect::<Result<Vec<_>, _>>).map_err(failed)?;
@@ -164,10 +200,12 @@ fn below(folder: &Path, except: &[PathBuf], files: &mut Vec<PathBuf>) -> Result<
         if kind.is_dir() {
             // The rows of a fleet are no logs.
             if !path.join(MANIFEST).is_file() {
-                below(&path, except, files)?;
+                below(&path, except, files, special)?;
             }
         } else if kind.is_file() || path.is_file() {
             files.push(path);
+        } else {
+            *special += 1;
         }
     }
     Ok(())
@@ -238,23 +276,23 @@ mod tests {
         fs::write(folder.path().join("m1/.hidden"), "").unwrap();
         let pattern = LogPattern::new("{machine}/{time}.csv").unwrap();
         let paths = [folder.path().to_owned(), folder.path().join("m1/2026-01-02.csv")];
-        let logs = logs_of_paths(&paths, Some(&pattern), &[]).unwrap().logs;
+        let logs = logs_of_paths(&paths, Some(&pattern), &[], None).unwrap().logs;
         let machines: Vec<_> = logs.iter().map(|log| log.machine.as_deref().unwrap()).collect();
         assert_eq!(machines, ["m1", "m1", "m2"]);
         assert!(logs[0].time_us < logs[1].time_us && logs[1].time_us < logs[2].time_us);
         // The same log has the same name, however its path is written.
         let other = folder.path().join("m2/../m1/./2026-01-02.csv");
-        let again = logs_of_paths(&[other], None, &[]).unwrap().logs;
+        let again = logs_of_paths(&[other], None, &[], None).unwrap().logs;
         assert_eq!(again[0].log, logs[1].log);
         let none = LogPattern::new("{machine}/{time}.mat").unwrap();
-        let error = logs_of_paths(&paths[..1], Some(&none), &[]).unwrap_err().to_string();
+        let error = logs_of_paths(&paths[..1], Some(&none), &[], None).unwrap_err().to_string();
         assert!(error.ends_with(": none of 3 files ends like \"{machine}/{time}.mat\""), "{error}");
 
         fs::write(folder.path().join("m1/notes.txt"), "").unwrap();
-        let found = logs_of_paths(&paths, Some(&pattern), &[]).unwrap();
+        let found = logs_of_paths(&paths, Some(&pattern), &[], None).unwrap();
         assert_eq!((found.logs.len(), found.unlike), (3, 1));
         let notes = folder.path().join("m1/notes.txt");
-        let error = logs_of_paths(std::slice::from_ref(&notes), Some(&pattern), &[])
+        let error = logs_of_paths(std::slice::from_ref(&notes), Some(&pattern), &[], None)
             .unwrap_err()
             .to_string();
         assert!(
@@ -262,7 +300,10 @@ mod tests {
             "{error}"
         );
 
-        assert_eq!(logs_of_paths(&paths, None, &[&notes]).unwrap().logs.len(), 3);
+        assert_eq!(logs_of_paths(&paths, None, &[&notes], None).unwrap().logs.len(), 3);
+
+        let into = logs_of_paths(&paths[..1], None, &[folder.path()], None).unwrap_err();
+        assert!(matches!(into, FleetError::LogsFolder { .. }), "{into}");
 
         let table = "log,machine,time\nm1/2026-01-01.csv,A,2026-01-01\n\"b,1.csv\",,\n";
         let logs = logs_of_table("table", table.as_bytes(), folder.path()).unwrap();
@@ -277,5 +318,53 @@ mod tests {
             let error = logs_of_table("table", table.as_bytes(), Path::new("")).unwrap_err();
             assert_eq!(error.to_string(), problem);
         }
+    }
+
+    #[test]
+    fn folders_of_runs() {
+        let folder = tempfile::tempdir().unwrap();
+        let runs = ["run.csv", "slow/run.csv"].map(str::to_owned);
+        for file in ["m1/1/run.csv", "m1/1/slow/run.csv", "m1/2/slow/run.csv", "m2/3/run.csv"] {
+            let file = folder.path().join(file);
+            fs::create_dir_all(file.parent().unwrap()).unwrap();
+            fs::write(file, "").unwrap();
+        }
+        fs::create_dir(folder.path().join("m2/empty")).unwrap();
+        let pattern = LogPattern::new("{machine}/{time_of_day}").unwrap();
+        let list = |path: &str, pattern: Option<&LogPattern>, runs: &[String]| {
+            logs_of_paths(&[folder.path().join(path)], pattern, &[], Some(runs))
+        };
+        let found = list("", Some(&pattern), &runs).unwrap();
+        let names: Vec<_> = found.logs.iter().map(|log| Path::new(&log.log)).collect();
+        assert_eq!(names, ["m1/1", "m1/2", "m2/3"].map(|name| folder.path().join(name)));
+        assert_eq!(found.logs[2].machine.as_deref(), Some("m2"));
+        assert_eq!(list("m1", Some(&pattern), &runs).unwrap().logs.len(), 2);
+        let of_m2 = LogPattern::new("m2/{machine}").unwrap();
+        let found = list("", Some(&of_m2), &runs).unwrap();
+        assert_eq!((found.logs.len(), found.unlike), (1, 2));
+        let other = LogPattern::new("axis{machine}").unwrap();
+        let error = list("", Some(&other), &runs).unwrap_err().to_string();
+        assert!(error.ends_with("none of 3 folders ends like \"axis{machine}\""), "{error}");
+        let none = list("", None, &["chirp.csv".to_owned()]).unwrap_err().to_string();
+        assert!(none.ends_with("no folder has files of the runs: chirp.csv"), "{none}");
+        assert!(matches!(list("m1/1/run.csv", None, &runs), Err(FleetError::Read { .. })));
+        // Addresses, too.
+        let files = ["s3://b/m1/1/run.csv", "s3://b/m1/1/slow/run.csv"].map(PathBuf::from);
+        assert_eq!(folders_with(&files, &runs), [PathBuf::from("s3://b/m1/1")]);
+    }
+
+    #[test]
+    #[cfg(unix)]
+    fn links_to_folders_and_sockets_are_counted() {
+        use std::os::unix::{fs::symlink, net::UnixListener};
+
+        let folder = tempfile::tempdir().unwrap();
+        fs::write(folder.path().join("a.csv"), "").unwrap();
+        symlink("a.csv", folder.path().join("b.csv")).unwrap();
+        symlink("none", folder.path().join("broken")).unwrap();
+        symlink(".", folder.path().join("again")).unwrap();
+        let _socket = UnixListener::bind(folder.path().join("socket")).unwrap();
+        let found = logs_of_paths(&[folder.path().to_owned()], None, &[], None).unwrap();
+        assert_eq!((found.logs.len(), found.special), (2, 3));
     }
 }

@@ -21,7 +21,8 @@ pub struct FleetRow {
     pub machine: Option<String>,
     /// When it was recorded, in microseconds since 1970 UTC.
     pub time_us: Option<i64>,
-    /// SHA-256 of the file's bytes, in hexadecimal digits; none if it could not be read.
+    /// SHA-256 of the file's bytes, in hexadecimal digits; none if it could not be read. Of a folder: of the files of the runs,
+    /// one after the other.
     pub input_sha256: Option<String>,
     /// Time that the log took \[s\].
     pub seconds: f64,

@@ -1,6 +1,6 @@
 //! What is done with every log.
 
-use std::path::{Path, PathBuf};
+use std::path::{Component, Path, PathBuf};
 use std::time::Duration;
 
 use lissom::identify::FindingKind;
@@ -19,8 +19,11 @@ pub struct FleetSettings {
     pub version: String,
     /// What errors call the campaign; a file in it is relative to the folder of this name.
     pub campaign_name: PathBuf,
-    /// Text of the `campaign.toml` that describes every log; its runs are not read.
+    /// Text of the `campaign.toml` that describes every log; its runs are read only if logs are folders.
     pub campaign: String,
+    /// Whether each log is a folder with the files of the campaign's runs. Otherwise it is one file.
+    #[serde(default)]
+    pub by_folder: bool,
     /// Effort for every log.
     pub effort: EffortName,
     /// When a log is identified again with more effort.
@@ -57,6 +60,7 @@ impl FleetSettings {
             version: VERSION.to_owned(),
             campaign_name: campaign_name.into(),
             campaign: campaign.into(),
+            by_folder: false,
             effort: EffortName::Quick,
             refinement: Some(Refinement { effort: EffortName::Normal, codes: Vec::new() }),
             time_limit_s: TIME_LIMIT_S,
@@ -68,10 +72,10 @@ impl FleetSettings {
     /// Checks that the campaign describes logs; no log is read.
     ///
     /// # Errors
-    /// [`FleetError::Campaign`] if a key or value of it is wrong.
+    /// As [`FleetSettings::run_files`].
     pub(crate) fn check_campaign(&self, folder: &Path) -> Result<(), FleetError> {
-        let reader = CampaignReader::of_text(&self.campaign_name, self.campaign.clone());
-        match reader.only(&folder.join(".no-log")).read() {
+        self.run_files()?;
+        match self.reader(&folder.join(".no-log")).read() {
             Ok(_) | Err(lissom_io::Error::Log(_)) => Ok(()),
             Err(error) => Err(FleetError::Campaign(Box::new(error))),
         }
@@ -89,6 +93,46 @@ impl FleetSettings {
         }
     }
 
+    /// If each log is a folder: the files of the campaign's runs, relative to the folder, in the order of the campaign, with `/`
+    /// between their parts.
+    ///
+    /// # Errors
+    /// [`FleetError::Campaign`] if a key or value of the campaign is wrong or it has no runs, [`FleetError::Runs`] if a file of a
+    /// run is not in the folder of the log.
+    pub fn run_files(&self) -> Result<Option<Vec<String>>, FleetError> {
+        if !self.by_folder {
+            return Ok(None);
+        }
+        let campaign = |error| FleetError::Campaign(Box::new(error));
+        let files = self.text_reader().run_files().map_err(campaign)?;
+        let mut relative = Vec::with_capacity(files.len());
+        for file in files {
+            let Some(path) = below_a_folder(&file) else {
+                let place = self.campaign_name.display().to_string();
+                let problem =
+                    format!("the file \"{}\" is not in the folder of a log", file.display());
+                return Err(FleetError::Runs { place, problem });
+            };
+            if !relative.contains(&path) {
+                relative.push(path);
+            }
+        }
+        Ok(Some(relative))
+    }
+
+    fn text_reader(&self) -> CampaignReader {
+        CampaignReader::of_text(&self.campaign_name, self.campaign.clone())
+    }
+
+    /// The reader of a log.
+    pub(crate) fn reader(&self, log: &Path) -> CampaignReader {
+        if self.by_folder {
+            self.text_reader().in_folder(log)
+        } else {
+            self.text_reader().only(log)
+        }
+    }
+
     /// Whether a row is of more effort than every log has.
     pub(crate) fn is_refined(&self, row: &FleetRow) -> bool {
         matches!(&row.outcome, RowOutcome::Identified(found) if found.effort > self.effort)
@@ -103,4 +147,17 @@ impl FleetSettings {
     pub(crate) fn search_limit(&self) -> Duration {
         Duration::try_from_secs_f64(SEARCH_SHARE * self.time_limit_s).unwrap_or(Duration::MAX)
     }
+}
+
+/// A path that stays in its folder, with `/` between its parts.
+fn below_a_folder(path: &Path) -> Option<String> {
+    let mut parts = Vec::new();
+    for part in path.components() {
+        match part {
+            Component::Normal(part) => parts.push(part.to_str()?),
+            Component::CurDir => {}
+            _ => return None,
+        }
+    }
+    (!parts.is_empty()).then(|| parts.join("/"))
 }

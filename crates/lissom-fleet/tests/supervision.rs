@@ -230,6 +230,34 @@ fn a_folder_belongs_to_one_run_and_one_campaign() {
 }
 
 #[test]
+fn runs_of_folders_are_files_in_them() {
+    let folder = tempfile::tempdir().unwrap();
+    let begin = |runs: &str, by_folder: bool| {
+        let campaign = format!("{CAMPAIGN}\n{runs}");
+        let settings = FleetSettings { campaign, by_folder, ..settings() };
+        FleetRun::begin(&folder.path().join("out"), settings, many(2), &ExistingRows::Keep)
+    };
+    for (runs, problem) in [
+        ("", "campaign.toml has no `runs`"),
+        ("runs = []", "`runs`"),
+        ("runs = [{ file = '../a.csv' }]", "the file \"../a.csv\" is not in the folder of a log"),
+        ("runs = [{ file = 'b/../a.csv' }]", "\"b/../a.csv\" is not in the folder"),
+        ("runs = [{ file = '/logs/a.csv' }]", "\"/logs/a.csv\" is not in the folder"),
+        ("runs = [{ file = '.' }]", "\".\" is not in the folder"),
+    ] {
+        let error = begin(runs, true).unwrap_err();
+        assert!(error.to_string().contains(problem), "{error}");
+        assert!(error.hint().is_some_and(|hint| hint.contains("file = ")), "{error}");
+    }
+    let runs = "runs = [{ file = './b/a.csv' }, { file = 'b/a.csv::1' }, { file = 'c.csv' }]";
+    let run = begin(runs, true).unwrap();
+    assert_eq!(run.settings().run_files().unwrap().unwrap(), ["b/a.csv", "c.csv"]);
+    drop(run);
+    let error = begin(runs, false).unwrap_err().to_string();
+    assert!(error.ends_with("another choice of files or folders as logs"), "{error}");
+}
+
+#[test]
 fn a_program_that_is_no_worker_is_an_error() {
     let folder = tempfile::tempdir().unwrap();
     let started = Instant::now();

@@ -7,8 +7,8 @@ use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 
 use lissom_fleet::{
     Batch, BatchRows, ExistingRows, Failure, FleetError, FleetLog, FleetRun, FleetSettings,
-    LogPattern, LogWorker, Progress, SummaryOptions, Values, WorkerProgram, logs_of_paths, open,
-    summarise, time_us,
+    LogPattern, LogWorker, Progress, SummaryOptions, Values, WorkerProgram, folders_with,
+    logs_of_paths, open, summarise, time_us,
 };
 use lissom_views::fleet_page;
 use numpy::PyArray1;
@@ -188,7 +188,12 @@ impl FleetWorker {
         self.batch.logs.iter().map(|log| (log.log.clone(), log.path().to_owned())).collect()
     }
 
-    /// The row of a log, JSON, read from a file; nothing if the worker is stopped.
+    /// The files of a log that is a folder, relative to it; nothing if each log is a file.
+    fn run_files(&self, py: Python<'_>) -> PyResult<Option<Vec<String>>> {
+        self.batch.settings.run_files().map_err(|error| raised(py, error))
+    }
+
+    /// The row of a log, JSON, read from a file or folder; nothing if the worker is stopped.
     fn row<'py>(
         &self,
         py: Python<'py>,
@@ -228,20 +233,43 @@ fn as_bytes<'py>(py: Python<'py>, row: &lissom_fleet::FleetRow) -> PyResult<Boun
     Ok(PyBytes::new(py, &serde_json::to_vec(row).map_err(|_| internal_error())?))
 }
 
-/// Logs of files and folders, JSON, with what their names say by a pattern; files below folders that do not end like it are
-/// left out.
+/// The files of a log that is a folder, relative to it, by settings, JSON; nothing if each log is a file.
 #[pyfunction]
-#[pyo3(signature = (paths, except_, pattern=None))]
+pub(crate) fn fleet_run_files(py: Python<'_>, settings: &str) -> PyResult<Option<Vec<String>>> {
+    let settings: FleetSettings = of_json(py, settings)?;
+    settings.run_files().map_err(|error| raised(py, error))
+}
+
+/// The folders that have files of the campaign's runs, of the addresses of files below `place`.
+#[pyfunction]
+pub(crate) fn fleet_folders(
+    py: Python<'_>,
+    place: String,
+    files: Vec<PathBuf>,
+    run_files: Vec<String>,
+) -> PyResult<Vec<String>> {
+    let folders = py.detach(|| folders_with(&files, &run_files));
+    if folders.is_empty() {
+        return Err(raised(py, FleetError::no_folder(place, &run_files)));
+    }
+    Ok(folders.into_iter().map(|folder| folder.display().to_string()).collect())
+}
+
+/// Logs of files and folders, JSON, with what their names say by a pattern; files below folders that do not end like it are
+/// left out. With `run_files`, each folder that has some of them is a log.
+#[pyfunction]
+#[pyo3(signature = (paths, except_, pattern=None, run_files=None))]
 pub(crate) fn fleet_logs(
     py: Python<'_>,
     paths: Vec<PathBuf>,
     except_: Vec<PathBuf>,
     pattern: Option<&str>,
+    run_files: Option<Vec<String>>,
 ) -> PyResult<String> {
     let except: Vec<&Path> = except_.iter().map(PathBuf::as_path).collect();
     let list = || {
         let pattern = pattern.map(LogPattern::new).transpose()?;
-        logs_of_paths(&paths, pattern.as_ref(), &except)
+        logs_of_paths(&paths, pattern.as_ref(), &except, run_files.as_deref())
     };
     let found = py.detach(list).map_err(|error| fleet_raised(py, &error))?;
     serde_json::to_string(&found.logs).map_err(|_| internal_error())

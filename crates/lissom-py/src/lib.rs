@@ -44,8 +44,8 @@ mod _lissom {
     use crate::exporting::export;
     #[pymodule_export]
     use crate::fleet::{
-        FleetWorker, NativeFleetRun, fleet_columns, fleet_logs, fleet_manifest, fleet_page_of,
-        fleet_pattern, fleet_summary, fleet_time,
+        FleetWorker, NativeFleetRun, fleet_columns, fleet_folders, fleet_logs, fleet_manifest,
+        fleet_page_of, fleet_pattern, fleet_run_files, fleet_summary, fleet_time,
     };
     #[pymodule_export]
     use crate::found::NativeFound;

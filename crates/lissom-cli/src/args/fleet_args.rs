@@ -35,7 +35,7 @@ pub(crate) enum FleetCommand {
 pub(crate) struct FleetRunArgs {
     /// Logs, and folders with logs
     pub(crate) logs: Vec<PathBuf>,
-    /// The campaign.toml that describes every log; its runs are not read
+    /// The campaign.toml that describes every log; its runs are read only with --by-folder
     #[arg(long, value_name = "CAMPAIGN")]
     pub(crate) like: Option<PathBuf>,
     /// Write rows into DIR
@@ -47,6 +47,9 @@ pub(crate) struct FleetRunArgs {
     /// Machine and time from the end of the path, e.g. "{machine}/{time}.csv"
     #[arg(long, value_name = "PATTERN")]
     pub(crate) pattern: Option<String>,
+    /// A folder with the files of the campaign's runs is one log
+    #[arg(long)]
+    pub(crate) by_folder: bool,
     /// Worker processes at a time [default: cores of this machine]
     #[arg(long, value_name = "NUMBER")]
     pub(crate) workers: Option<NonZeroUsize>,
@@ -102,6 +105,7 @@ const HELP: &str = "\
 Examples:
   lissom fleet logs --like campaign.toml --out fleet --pattern \"{machine}/{time}.csv\"
   lissom fleet --table logs.csv --like campaign.toml --out fleet
+  lissom fleet logs --like campaign.toml --out fleet --by-folder --pattern \"{machine}/{time}\"
   lissom fleet summary fleet --report page.html
 Each log is identified quickly; where an estimate is refused, again with --refine EFFORT.
 What is wrong with one log is in its row. Rows are in Parquet files, which manifest.json lists.";

@@ -56,7 +56,9 @@ fn identify(args: &FleetRunArgs, own: &[OsString]) -> Result<ExitCode, Failure> 
             again.iter().filter_map(|name| lissom_fleet::Failure::of(name)).collect(),
         ),
     };
-    let run = FleetRun::begin(out, settings(args, like)?, logs(args, like, out)?, &existing)?;
+    let settings = settings(args, like)?;
+    let logs = logs(args, like, out, settings.run_files()?.as_deref())?;
+    let run = FleetRun::begin(out, settings, logs, &existing)?;
     let cores = || thread::available_parallelism().unwrap_or(NonZeroUsize::MIN);
     let workers = args.workers.unwrap_or_else(cores);
     let bar = FleetBar::new(run.progress().logs);
@@ -81,6 +83,7 @@ fn settings(args: &FleetRunArgs, like: &Path) -> Result<FleetSettings, Failure> 
     let codes = args.refine_on.clone();
     let more = EffortName::of(&args.refine);
     Ok(FleetSettings {
+        by_folder: args.by_folder,
         effort: effort_name(args.effort),
         refinement: more.map(|effort| Refinement { effort, codes }),
         time_limit_s: args.time_limit,
@@ -98,15 +101,23 @@ fn effort_name(effort: EffortArg) -> EffortName {
     }
 }
 
-fn logs(args: &FleetRunArgs, like: &Path, out: &Path) -> Result<Vec<FleetLog>, Failure> {
+fn logs(
+    args: &FleetRunArgs,
+    like: &Path,
+    out: &Path,
+    run_files: Option<&[String]>,
+) -> Result<Vec<FleetLog>, Failure> {
     let pattern = args.pattern.as_deref().map(LogPattern::new).transpose()?;
     let Some(table) = &args.table else {
-        let found = logs_of_paths(&args.logs, pattern.as_ref(), &[like, out])?;
-        if found.unlike > 0 {
-            printer::note(&format!(
-                "files that do not end like the pattern, left out: {}",
-                found.unlike
-            ));
+        let found = logs_of_paths(&args.logs, pattern.as_ref(), &[like, out], run_files)?;
+        let kind = if args.by_folder { "folders" } else { "files" };
+        for (what, count) in [
+            (format!("{kind} that do not end like the pattern"), found.unlike),
+            ("links to folders, devices and pipes".to_owned(), found.special),
+        ] {
+            if count > 0 {
+                printer::note(&format!("{what}, left out: {count}"));
+            }
         }
         return Ok(found.logs);
     };

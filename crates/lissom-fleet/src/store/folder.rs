@@ -158,6 +158,7 @@ fn same(folder: &Path, then: &FleetSettings, now: &FleetSettings) -> Result<(), 
     let differs = [
         ("version of lissom", then.version != VERSION),
         ("campaign", then.campaign != now.campaign),
+        ("choice of files or folders as logs", then.by_folder != now.by_folder),
         ("effort", then.effort != now.effort),
         ("refinement", then.refinement != now.refinement),
         ("choice of whole results", then.keep_results != now.keep_results),

@@ -1,17 +1,18 @@
 //! Identifies one log of a fleet.
 
 use std::fs::File;
-use std::io::{self, Read as _};
+use std::io::Read as _;
 use std::panic::{self, AssertUnwindSafe};
-use std::path::Path;
+use std::path::PathBuf;
 use std::time::Instant;
 
 use lissom::io::log::LogPath;
-use lissom::io::{CampaignFile, CampaignReader, LogError};
+use lissom::io::{CampaignFile, LogError};
 use lissom::{Found, Identify};
 use sha2::{Digest as _, Sha256};
 
 use crate::effort_name::EffortName;
+use crate::fleet_error::FleetError;
 use crate::fleet_log::FleetLog;
 use crate::row::{Failure, FleetRow, RowOutcome, RowResult};
 use crate::settings::{FleetSettings, Refinement};
@@ -23,9 +24,11 @@ const CHUNK: usize = 1 << 16;
 pub(crate) fn identify_log(settings: &FleetSettings, log: &FleetLog) -> FleetRow {
     let started = Instant::now();
     let seconds = || started.elapsed().as_secs_f64();
-    let work = || {
-        let digest = sha256(log.path()).ok();
-        (digest, outcome(settings, log, started))
+    let work = || match files(settings, log).map(|files| sha256(&files)) {
+        Err(error) => (None, failed(Failure::Input, error.to_string(), error.hint())),
+        // A folder has all files of the runs.
+        Ok(Err(error)) if settings.by_folder => (None, not_read(&error.into(), log)),
+        Ok(digest) => (digest.ok(), outcome(settings, log, started)),
     };
     match panic::catch_unwind(AssertUnwindSafe(work)) {
         Ok((digest, outcome)) => {
@@ -43,15 +46,9 @@ pub(crate) fn identify_log(settings: &FleetSettings, log: &FleetLog) -> FleetRow
 }
 
 fn outcome(settings: &FleetSettings, log: &FleetLog, started: Instant) -> RowOutcome {
-    let reader = CampaignReader::of_text(&settings.campaign_name, settings.campaign.clone());
-    let file = match reader.only(log.path()).read() {
+    let file = match settings.reader(log.path()).read() {
         Ok(file) => file,
-        Err(error) => {
-            let (failure, message) = (kind(&error), with_name(error.to_string(), log));
-            // Hints for files that are missing are about the runs of a campaign.
-            let hint = error.hint().filter(|_| failure != Failure::Missing);
-            return failed(failure, message, hint);
-        }
+        Err(error) => return not_read(&error, log),
     };
     let first = match identified(settings, &file, settings.effort, started) {
         Ok(found) => found,
@@ -70,6 +67,22 @@ fn outcome(settings: &FleetSettings, log: &FleetLog, started: Instant) -> RowOut
         }
         Err(error) => failed(Failure::Input, error.to_string(), error.hint()),
     }
+}
+
+/// The files of a log.
+fn files(settings: &FleetSettings, log: &FleetLog) -> Result<Vec<PathBuf>, FleetError> {
+    Ok(match settings.run_files()? {
+        Some(files) => files.iter().map(|file| log.path().join(file)).collect(),
+        None => vec![LogPath::of(log.path()).file],
+    })
+}
+
+/// The outcome of a log that cannot be read.
+fn not_read(error: &lissom_io::Error, log: &FleetLog) -> RowOutcome {
+    let (failure, message) = (kind(error), with_name(error.to_string(), log));
+    // Hints for files that are missing are about the runs of a campaign.
+    let hint = error.hint().filter(|_| failure != Failure::Missing);
+    failed(failure, message, hint)
 }
 
 /// Whether a finding asks for more effort.
@@ -114,14 +127,17 @@ fn kind(error: &lissom_io::Error) -> Failure {
     }
 }
 
-/// SHA-256 of a file's bytes.
-fn sha256(path: &Path) -> io::Result<String> {
-    let mut file = File::open(LogPath::of(path).file)?;
+/// SHA-256 of the bytes of files, one after the other.
+fn sha256(files: &[PathBuf]) -> Result<String, LogError> {
     let (mut hash, mut chunk) = (Sha256::new(), vec![0; CHUNK]);
-    loop {
-        match file.read(&mut chunk)? {
-            0 => break,
-            count => hash.update(&chunk[..count]),
+    for path in files {
+        let failed = |source| LogError::Open { file: path.display().to_string(), source };
+        let mut file = File::open(path).map_err(failed)?;
+        loop {
+            match file.read(&mut chunk).map_err(failed)? {
+                0 => break,
+                count => hash.update(&chunk[..count]),
+            }
         }
     }
     let digit = |half: u8| char::from_digit(half.into(), 16).unwrap_or_default();
