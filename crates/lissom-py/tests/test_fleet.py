@@ -3,8 +3,10 @@
 from __future__ import annotations
 
 import copy
+import hashlib
 import json
 import os
+import shutil
 import signal
 import subprocess
 import sys
@@ -388,6 +390,92 @@ def test_bucket(folder: Path, tmp_path: Path, storage: dict[str, Any], monkeypat
     assert fleet.rows == 1 and fleet.failed == 0
     with pytest.raises(lissom.LissomError, match="check the protocol"):
         lissom.fleet("nosuchprotocol://here", out=tmp_path / "none", **more)
+
+
+RUNS = ("slow.csv", "fast/chirp.csv")
+
+
+@pytest.fixture(scope="module")
+def tests_by_folder(tmp_path_factory: pytest.TempPathFactory, folder: Path) -> Path:
+    """Folders with two runs each, of which one lacks a file, and their campaign.toml."""
+    made = tmp_path_factory.mktemp("by_folder")
+    runs = "".join(f'[[runs]]\nfile = "{file}"\n' for file in RUNS)
+    (made / "campaign.toml").write_text(CAMPAIGN + runs + 'skip = "0.5 s"\n')
+    for machine in ("m0", "m1"):
+        for day, files in (("2026-01-01", RUNS), ("2026-01-02", RUNS[: 2 if machine == "m0" else 1])):
+            for number, file in enumerate(files, start=1):
+                target = made / "logs" / machine / day / file
+                target.parent.mkdir(parents=True, exist_ok=True)
+                target.write_bytes((folder / "logs" / machine / f"2026-01-{number:02}.csv").read_bytes())
+    (made / "logs" / "notes").mkdir()
+    (made / "logs" / "notes" / "notes.txt").write_text("none of the runs")
+    return made
+
+
+def of_folders(fleet: lissom.Fleet, made: Path, root: str) -> None:
+    """Check the rows: the results of each folder's campaign, and the file that is missing."""
+    assert fleet.rows == 4 and fleet.failed == 1
+    order = np.argsort(fleet["log"])
+    days = [f"m{machine}/2026-01-0{day}" for machine in (0, 1) for day in (1, 2)]
+    assert list(fleet["log"][order]) == [f"{root}/{day}" for day in days]
+    assert list(fleet["machine"][order]) == ["m0", "m0", "m1", "m1"]
+    assert list(fleet["failure"][order]) == ["", "", "", "missing"]
+    assert fleet["message"][order][3].startswith(f"{root}/{days[3]}/{RUNS[1]}: ")
+    for row, day in zip(order[:3], days, strict=False):
+        campaign = made / "logs" / day / "campaign.toml"
+        campaign.write_text((made / "campaign.toml").read_text())
+        alone = lissom.identify(lissom.Campaign.load(campaign), effort="quick")
+        campaign.unlink()
+        assert fleet["friction.coulomb_nm"][row] == alone["friction.coulomb_nm"]
+        content = b"".join((made / "logs" / day / file).read_bytes() for file in RUNS)
+        assert fleet["input_sha256"][row] == hashlib.sha256(content).hexdigest()
+
+
+def test_folders_are_logs(folder: Path, tests_by_folder: Path, tmp_path: Path) -> None:
+    """A folder with the files of the campaign's runs is one log, however folders are given."""
+    made, root = tests_by_folder, str(tests_by_folder / "logs")
+    more: dict[str, Any] = {"by_folder": True, "pattern": "{machine}/{time}", "refine": None}
+    like = made / "campaign.toml"
+    of_folders(lissom.fleet(root, like, out=tmp_path / "folder", **more), made, root)
+    of_folders(lissom.fleet(f"{root}/*", like, out=tmp_path / "glob", **more), made, root)
+    shutil.copytree(f"{root}/m0/2026-01-01", tmp_path / "reference")
+    shutil.copy(like, tmp_path / "reference")
+    campaign = lissom.Campaign.load(tmp_path / "reference" / "campaign.toml")
+    of_folders(lissom.fleet([f"{root}/m0", f"{root}/m1/"], campaign, out=tmp_path / "list", **more), made, root)
+    table = {"log": [f"{root}/m{machine}/2026-01-0{day}" for machine in (0, 1) for day in (1, 2)]}
+    of_folders(lissom.fleet(table, like, out=tmp_path / "table", **more), made, root)
+    (made / "up.toml").write_text(like.read_text().replace("slow", "../slow"))
+    for logs, wrong, problem in (
+        (root, folder / "campaign.toml", "has no `runs`"),
+        (root, made / "up.toml", "is not in the folder of a log"),
+        (f"{root}/notes", like, "no folder has files of the runs: slow.csv, fast/chirp.csv"),
+        ({"a": {"t": [0.0, 1.0]}}, like, "tables in memory are not in folders"),
+    ):
+        with pytest.raises(lissom.InputError, match=problem) as raised:
+            lissom.fleet(logs, wrong, out=tmp_path / "wrong", by_folder=True)
+        assert raised.value.hint
+    with pytest.raises(lissom.InputError, match="cannot be written into a folder with logs"):
+        lissom.fleet(root, like, out=root, by_folder=True)
+    with pytest.raises(lissom.InputError, match="another choice of files or folders as logs"):
+        lissom.fleet(table, like, out=tmp_path / "table", refine=None)
+
+
+def test_folders_of_a_bucket(tests_by_folder: Path, tmp_path: Path, storage: dict[str, Any]) -> None:
+    """The files of folders are fetched from addresses; addresses in a list that end in / are listed."""
+    import s3fs
+
+    system = s3fs.S3FileSystem(**storage)
+    system.mkdir("tests")
+    system.put(str(tests_by_folder / "logs"), "tests/logs", recursive=True)
+    more: dict[str, Any] = {"pattern": "{machine}/{time}", "refine": None, "storage_options": storage}
+    for number, logs in enumerate(("s3://tests/logs", "s3://tests/logs/*", ["s3://tests/logs/m0/", "s3://tests/logs/m1/"])):
+        fleet = lissom.fleet(logs, tests_by_folder / "campaign.toml", out=tmp_path / str(number), by_folder=True, **more)
+        of_folders(fleet, tests_by_folder, "s3://tests/logs")
+    files = ["s3://tests/logs/m1/", "s3://tests/logs/m0/2026-01-01/slow.csv"]
+    fleet = lissom.fleet(files, tests_by_folder / "campaign.toml", out=tmp_path / "files", **{**more, "pattern": None})
+    assert fleet.rows == 4 and fleet.failed == 0
+    with pytest.raises(lissom.InputError, match="s3://tests/logs/notes: no folder has files of the runs"):
+        lissom.fleet("s3://tests/logs/notes", tests_by_folder / "campaign.toml", out=tmp_path / "no", by_folder=True, **more)
 
 
 def test_worker_processes_end_with_the_program(folder: Path, tmp_path: Path) -> None:

@@ -1,4 +1,4 @@
-"""The logs of a fleet: files, addresses, tables in memory, or a table of logs."""
+"""The logs of a fleet: files, folders, addresses, tables in memory, or a table of logs."""
 
 from __future__ import annotations
 
@@ -39,7 +39,14 @@ class FleetLogs:
         self.tables = tables
 
     @classmethod
-    def of(cls, logs: Any, pattern: str | None, except_: Sequence[str], options: Mapping[str, Any]) -> FleetLogs:
+    def of(
+        cls,
+        logs: Any,
+        pattern: str | None,
+        except_: Sequence[str],
+        options: Mapping[str, Any],
+        run_files: list[str] | None = None,
+    ) -> FleetLogs:
         """List the logs.
 
         Parameters
@@ -52,6 +59,8 @@ class FleetLogs:
             Paths that are no logs.
         options : mapping
             Options of the file system for addresses.
+        run_files : list of str, optional
+            Files of a log that is a folder; each log is a file if absent.
 
         Returns
         -------
@@ -69,11 +78,13 @@ class FleetLogs:
             alone = is_path(logs)
             for log in [logs] if alone else _items(logs):
                 if is_path(log):
-                    entries += _of_path(path_text(log), except_, options, pattern, alone)
+                    entries += _of_path(path_text(log), except_, options, pattern, alone, run_files)
                 else:
                     name = f"table {len(entries) + 1}"
                     tables[name] = log
                     entries.append(_entry(name))
+        if tables and run_files is not None:
+            raise InputError("tables in memory are not in folders", "give folders or addresses, or leave out by_folder")
         if pattern is not None:
             entries = json.loads(_lissom.fleet_pattern(json.dumps(entries), pattern, False))
         names = {entry["log"] for entry in entries}
@@ -140,23 +151,36 @@ def _entry(name: str, file: str | None = None) -> dict[str, Any]:
 
 
 def _of_path(
-    path: str, except_: Sequence[str], options: Mapping[str, Any], pattern: str | None, alone: bool
+    path: str,
+    except_: Sequence[str],
+    options: Mapping[str, Any],
+    pattern: str | None,
+    alone: bool,
+    run_files: list[str] | None,
 ) -> list[dict[str, Any]]:
-    """Give the logs of a path. One in a list that is no folder here is a log as it stands: a worker may have it."""
+    """Give the logs of a path. One in a list that is no folder is a log as it stands: a worker may have it."""
     is_glob = any(character in path for character in _GLOB) and not os.path.exists(path)
-    if not alone and not is_glob and not os.path.exists(path):
+    is_folder = os.path.exists(path) or (is_address(path) and path.endswith("/"))
+    if not alone and not is_glob and not is_folder:
         return [_entry(path if is_address(path) else os.path.abspath(path))]
     if is_address(path):
-        return _among([_entry(address) for address in _of_address(path, options)], pattern)
+        return _among([_entry(address) for address in _of_address(path, options, run_files)], pattern)
+    paths = [path]
     if is_glob:
         found = sorted(glob.glob(path, recursive=True))
         if not found:
             raise FileError(f"{path}: no file has this form", "check the folder")
-        files = [file for file in found if os.path.isfile(file)]
-        return _among([_entry(os.path.abspath(file)) for file in files], pattern)
-    if not os.path.exists(path) and "::" not in path:
+        if run_files is None:
+            files = [file for file in found if os.path.isfile(file)]
+            return _among([_entry(os.path.abspath(file)) for file in files], pattern)
+        paths = [folder for folder in found if os.path.isdir(folder) and not _is_among(folder, except_)]
+    elif not os.path.exists(path) and "::" not in path:
         raise FileError(f"{path}: there is no such file or folder", "check the name")
-    return list(json.loads(_lissom.fleet_logs([path], list(except_), pattern)))
+    return list(json.loads(_lissom.fleet_logs(paths, list(except_), pattern, run_files)))
+
+
+def _is_among(path: str, others: Sequence[str]) -> bool:
+    return os.path.realpath(path) in map(os.path.realpath, others)
 
 
 def _among(entries: list[dict[str, Any]], pattern: str | None) -> list[dict[str, Any]]:
@@ -165,14 +189,17 @@ def _among(entries: list[dict[str, Any]], pattern: str | None) -> list[dict[str,
         return entries
     found: list[dict[str, Any]] = json.loads(_lissom.fleet_pattern(json.dumps(entries), pattern, True))
     if not found:
-        raise InputError(f"none of {len(entries)} files ends like {pattern!r}", "correct the pattern")
+        raise InputError(f"none of {len(entries)} logs ends like {pattern!r}", "correct the pattern")
     return found
 
 
-def _of_address(address: str, options: Mapping[str, Any]) -> list[str]:
+def _of_address(address: str, options: Mapping[str, Any], run_files: list[str] | None) -> list[str]:
     system, path = file_system(address, options)
     try:
         if any(character in path for character in _GLOB):
+            if run_files is not None:
+                # All files in the folders that have this form.
+                path = path.rstrip("/") + "/**"
             found = [file for file, kind in system.glob(path, detail=True).items() if kind["type"] == "file"]
         else:
             found = list(system.find(path))
@@ -182,7 +209,8 @@ def _of_address(address: str, options: Mapping[str, Any]) -> list[str]:
         ) from error
     if not found:
         raise FileError(f"{address}: there are no logs", "check the address")
-    return [str(system.unstrip_protocol(file)) for file in sorted(found)]
+    files = [str(system.unstrip_protocol(file)) for file in sorted(found)]
+    return files if run_files is None else _lissom.fleet_folders(address, files, run_files)
 
 
 def _is_table_of_logs(logs: Any) -> bool:

@@ -41,6 +41,7 @@ def fleet(
     *,
     out: Path,
     pattern: str | None = None,
+    by_folder: bool = False,
     executor: Any = None,
     workers: int | None = None,
     effort: Literal["quick", "normal", "thorough"] = "quick",
@@ -67,11 +68,14 @@ def fleet(
         of names to tables in memory; or a table (pandas, polars, columns by name) with the columns ``log`` and, if known,
         ``machine`` and ``time``.
     like : Campaign or path
-        What describes every log: a campaign, or a campaign.toml. Its runs are not read.
+        What describes every log: a campaign, or a campaign.toml. Its runs are read only with `by_folder`.
     out : path
         Folder for the rows.
     pattern : str, optional
         Machine and time from the end of the path, as ``"{machine}/{time}.csv"``.
+    by_folder : bool
+        Whether each folder with the files of the campaign's runs is one log, with one row. `logs` are then folders, and the
+        campaign names the files relative to their folder.
     executor : object, optional
         Where batches are identified: anything with a method ``submit``, as a ``distributed.Client`` or an executor of
         `concurrent.futures`. Processes of this machine if absent.
@@ -118,7 +122,7 @@ def fleet(
     target, options = path_text(out), dict(storage_options or {})
     if is_address(target):
         raise InputError(f"{target} is no folder of this machine", "write the rows here, and copy the folder afterwards")
-    settings = _settings(like, effort, refine, refine_on, time_limit, retries, keep_results)
+    settings = _settings(like, by_folder, effort, refine, refine_on, time_limit, retries, keep_results)
     if on_error not in ("record", "raise"):
         raise InputError(f"on_error is {on_error!r}, and not 'record' or 'raise'")
     if isinstance(again, str) or not set(again) <= set(FAILURES):
@@ -126,7 +130,7 @@ def fleet(
     if workers is not None and not (isinstance(workers, int) and 1 <= workers <= MOST_WORKERS):
         raise InputError(f"workers is {workers!r}; it must be from 1 to {MOST_WORKERS}")
     described = [] if isinstance(like, Campaign) else [path_text(like)]
-    found = FleetLogs.of(logs, pattern, [*described, target], options)
+    found = FleetLogs.of(logs, pattern, [*described, target], options, _lissom.fleet_run_files(json.dumps(settings)))
     tables = {name: _columns(name, log) for name, log in found.tables.items()}
     run = _lissom.FleetRun(target, json.dumps(settings), json.dumps(found.entries), bool(resume), list(again))
     engine = _Local(workers) if executor is None else _Executor(executor)
@@ -145,6 +149,7 @@ def fleet(
 
 def _settings(
     like: Campaign | Path,
+    by_folder: bool,
     effort: str,
     refine: str | None,
     refine_on: Sequence[str],
@@ -173,6 +178,7 @@ def _settings(
         "version": _lissom.__version__,
         "campaign_name": name,
         "campaign": text,
+        "by_folder": bool(by_folder),
         "effort": effort,
         "refinement": None if refine is None else {"effort": refine, "codes": [str(code) for code in refine_on]},
         "time_limit_s": float(time_limit),

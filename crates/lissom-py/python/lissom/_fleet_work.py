@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import os
+import shutil
 import tempfile
 import threading
 import time
@@ -28,7 +29,7 @@ WAIT_S = 1.0
 
 #: A table in memory: its columns by name.
 Columns = Mapping[str, NDArray[Any]]
-#: A file, or why there is none: a failure of the log, or of the connection.
+#: A file or folder, or why there is none: a failure of the log, or of the connection.
 Fetched = Path | None | OSError | LissomError
 
 
@@ -107,19 +108,18 @@ def run_batch(
     rows = []
     try:
         with tempfile.TemporaryDirectory(prefix="lissom-") as folder:
-            for place, file in enumerate(_files(worker.logs(), Path(folder), tables, options)):
+            for place, file in enumerate(_files(worker.logs(), worker.run_files(), Path(folder), tables, options)):
                 if isinstance(file, LissomError):
                     # Not the log is the cause, but the connection: it has no row, and is tried again.
                     continue
                 if isinstance(file, OSError):
                     rows.append(worker.missing(place, str(file)))
-                    continue
-                row = worker.row(place, file)
-                if row is None:
-                    break
-                rows.append(row)
-                if file is not None:
-                    file.unlink()
+                else:
+                    row = worker.row(place, file)
+                    if row is None:
+                        break
+                    rows.append(row)
+                shutil.rmtree(Path(folder) / str(place), ignore_errors=True)
     finally:
         if workers is not None:
             workers.remove(worker)
@@ -128,9 +128,13 @@ def run_batch(
 
 
 def _files(
-    logs: list[tuple[str, Path]], folder: Path, tables: Mapping[str, Columns], options: Mapping[str, Any]
+    logs: list[tuple[str, Path]],
+    run_files: list[str] | None,
+    folder: Path,
+    tables: Mapping[str, Columns],
+    options: Mapping[str, Any],
 ) -> Iterator[Fetched]:
-    """Give the file of each log, None if it is where its name says; the next ones are fetched meanwhile."""
+    """Give the file or folder of each log, None if it is where its name says; the next ones are fetched meanwhile."""
     if not tables and not any(is_address(name) for name, _ in logs):
         yield from (None for _ in logs)
         return
@@ -138,7 +142,7 @@ def _files(
     with ThreadPoolExecutor(CHUNK) as pool:
 
         def begin(chunk: range) -> list[Any]:
-            return [pool.submit(_fetched, logs[k][0], folder / str(k), tables, options) for k in chunk]
+            return [pool.submit(_fetched, logs[k][0], run_files, folder / str(k), tables, options) for k in chunk]
 
         waiting = begin(chunks[0])
         for index in range(len(chunks)):
@@ -152,7 +156,9 @@ def _files(
             yield from found
 
 
-def _fetched(name: str, place: Path, tables: Mapping[str, Columns], options: Mapping[str, Any]) -> Fetched:
+def _fetched(
+    name: str, run_files: list[str] | None, place: Path, tables: Mapping[str, Columns], options: Mapping[str, Any]
+) -> Fetched:
     place.mkdir()
     if name in tables:
         file = place / "log.npz"
@@ -164,13 +170,20 @@ def _fetched(name: str, place: Path, tables: Mapping[str, Columns], options: Map
     for attempt in range(FETCHES):
         if attempt > 0:
             time.sleep(WAIT_S)
+        address = name
         try:
             system, path = file_system(name, options)
-            file = place / (os.path.basename(path) or "log")
-            system.get_file(path, str(file))
-            return file
+            if run_files is None:
+                file = place / (os.path.basename(path) or "log")
+                system.get_file(path, str(file))
+                return file
+            for run_file in run_files:
+                address, file = f"{name.rstrip('/')}/{run_file}", place / run_file
+                file.parent.mkdir(parents=True, exist_ok=True)
+                system.get_file(f"{path.rstrip('/')}/{run_file}", str(file))
+            return place
         except (FileNotFoundError, IsADirectoryError, PermissionError) as error:
-            return OSError(f"{name}: {error.strerror or error}")
+            return OSError(f"{address}: {error.strerror or error}")
         except LissomError:
             raise
         except Exception as error:
