@@ -190,7 +190,9 @@ def test_another_version_is_refused(folder: Path, tmp_path: Path, monkeypatch: p
 def test_stopped_and_killed_clients_go_on(folder: Path, tmp_path: Path) -> None:
     """Ctrl-C, or a kill, of the program keeps the rows that were written; the next run adds the others."""
     program = (
-        "import sys, time, lissom\n"
+        "import signal, sys, time, lissom\n"
+        # Programs that a shell starts in the background ignore it.
+        "signal.signal(signal.SIGINT, signal.default_int_handler)\n"
         "def wait(text, share):\n"
         "    print(text, flush=True)\n"
         "    if share > 0.1: time.sleep(30)\n"
@@ -270,6 +272,8 @@ def test_tables_in_memory(folder: Path, tmp_path: Path, logs: dict[str, dict[str
     fleet = lissom.fleet(tables, like, out=tmp_path / "out")
     assert sorted(fleet["log"]) == sorted(tables) and fleet.failed == 0
     assert np.allclose(fleet["friction.coulomb_nm"], COULOMB, rtol=0.05)
+    with pytest.raises(lissom.InputError, match="is an address"):
+        lissom.fleet({"a": "s3://bucket/log.csv"}, like, out=tmp_path / "bad")
     bad = {**tables, "complex": {"t": np.array([1j, 2]), "i": [1, 2], "theta_m": [1, 2]}}
     with pytest.raises(lissom.InputError, match='complex: column "t" is complex'):
         lissom.fleet(bad, like, out=tmp_path / "bad")

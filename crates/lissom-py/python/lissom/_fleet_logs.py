@@ -71,6 +71,12 @@ class FleetLogs:
         if _is_table_of_logs(logs):
             entries = _of_table(logs)
         elif isinstance(logs, Mapping):
+            for name, log in logs.items():
+                if is_path(log) and is_address(path_text(log)):
+                    raise InputError(
+                        f"{name}: {path_text(log)} is an address, which is its own name",
+                        "give a list of addresses, or a table with the columns log and machine",
+                    )
             tables = {str(name): log for name, log in logs.items() if not is_path(log)}
             entries = [_entry(str(name), path_text(log) if is_path(log) else None) for name, log in logs.items()]
         else:
