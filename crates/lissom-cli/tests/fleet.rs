@@ -132,6 +132,13 @@ fn rows_summary_page_and_table() {
     let table = output(lissom(folder).args(["fleet", "table", "out", "--out", "rows.parquet"]));
     assert!(table.status.success(), "{}", said(&table));
     assert_eq!(&fs::read(folder.join("rows.parquet")).unwrap()[..4], b"PAR1");
+    // Neither a part nor a log is overwritten.
+    for other in ["out/part-000001.parquet", "logs/m0_2026-01-01.csv", "campaign.toml"] {
+        let before = fs::read(folder.join(other)).unwrap();
+        let refused = output(lissom(folder).args(["fleet", "table", "out", "--out", other]));
+        assert_eq!(refused.status.code(), Some(1), "{other}: {}", said(&refused));
+        assert_eq!(fs::read(folder.join(other)).unwrap(), before);
+    }
     // The same command again has nothing to do; other settings belong into another folder.
     assert!(said(&output(&mut command(folder))).contains("24 logs had rows before"));
     let other = output(command(folder).args(["--effort", "normal"]));

@@ -129,6 +129,20 @@ pub enum FleetError {
         /// The folder.
         folder: PathBuf,
     },
+    /// A part cannot be read.
+    #[error("{}: cannot be read: {source}", path.display())]
+    Part {
+        /// The part.
+        path: PathBuf,
+        /// The cause.
+        source: io::Error,
+    },
+    /// The folder has parts, and no manifest says whether they count.
+    #[error("{}: it has parts of a fleet and no {}", folder.display(), crate::store::MANIFEST)]
+    NoManifest {
+        /// The folder.
+        folder: PathBuf,
+    },
     /// The folder is not one of a fleet.
     #[error("{}: there is no {} in it", folder.display(), crate::store::MANIFEST)]
     NoFleet {
@@ -208,11 +222,12 @@ impl FleetError {
                 "write into another folder, or use the settings of the results"
             }
             Self::NotEmpty { .. } => "write into another folder, or let the run be resumed",
+            Self::Part { .. } => "run the fleet again: logs whose rows are lost are done again",
             Self::NoFleet { .. } => "give the folder into which a fleet was written",
             Self::Damaged { path, .. } if path.extension().is_some_and(|end| end == "parquet") => {
                 "delete this file and run the fleet again: its logs are then done again"
             }
-            Self::Damaged { .. } => "write into another folder",
+            Self::NoManifest { .. } | Self::Damaged { .. } => "write into another folder",
             Self::Worker { .. } => "check the memory and the number of processes of this machine",
             Self::Version { .. } => "install the same version of lissom everywhere",
             Self::NoBatch { .. } | Self::Stopped => return None,

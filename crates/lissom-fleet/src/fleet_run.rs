@@ -85,7 +85,7 @@ impl FleetRun {
         }
         settings.check_codes()?;
         settings.check_campaign(out)?;
-        let (folder, done) = FleetFolder::open(out, &settings, existing)?;
+        let (folder, done) = FleetFolder::open(out, &settings, existing, &logs)?;
         let mut seen = HashSet::new();
         let logs: Vec<FleetLog> =
             logs.into_iter().filter(|log| seen.insert(log.log.clone())).collect();

@@ -15,6 +15,7 @@
 //! [`LogWorker`] somewhere make rows of the batch, and gives them to [`FleetRun::take`].
 
 mod batch_size;
+mod checksum;
 mod effort_name;
 mod existing_rows;
 mod fleet_error;

@@ -212,17 +212,17 @@ fn below(
 }
 
 /// The logs of a table, CSV with a column `log` and, if they are known, `machine` and `time`. Paths are relative to
-/// `folder`.
+/// `folder`; names of logs are paths from the root.
 ///
 /// # Errors
 /// [`FleetError::Table`] if a row or column is wrong, [`FleetError::NoLogs`] if it has no rows.
 pub fn logs_of_table(
-    name: &str,
+    table_name: &str,
     table: impl Read,
     folder: &Path,
 ) -> Result<Vec<FleetLog>, FleetError> {
     let wrong = |place: String, problem: String| FleetError::Table {
-        file: format!("{name}{place}"),
+        file: format!("{table_name}{place}"),
         problem,
     };
     let mut reader = csv::ReaderBuilder::new().trim(csv::Trim::All).from_reader(table);
@@ -244,22 +244,26 @@ pub fn logs_of_table(
         let Some(log) = cell(Some(of_log)) else {
             return Err(wrong(row(), "the log has no name".to_owned()));
         };
-        if !seen.insert(log.to_owned()) {
+        let log = name(&folder.join(log))?;
+        if !seen.insert(log.clone()) {
             return Err(wrong(row(), format!("{log} is listed twice")));
         }
         let time = cell(of_time).map(|text| {
             let problem = || wrong(row(), format!("\"{text}\" is not a time"));
             time_us(text).ok_or_else(problem)
         });
-        let file = folder.join(log);
         logs.push(FleetLog {
-            log: log.to_owned(),
-            file: (file != Path::new(log)).then_some(file),
+            log,
+            file: None,
             machine: cell(of_machine).map(str::to_owned),
             time_us: time.transpose()?,
         });
     }
-    if logs.is_empty() { Err(FleetError::NoLogs { place: name.to_owned() }) } else { Ok(logs) }
+    if logs.is_empty() {
+        Err(FleetError::NoLogs { place: table_name.to_owned() })
+    } else {
+        Ok(logs)
+    }
 }
 
 #[cfg(test)]
@@ -308,10 +312,10 @@ mod tests {
         let table = "log,machine,time\nm1/2026-01-01.csv,A,2026-01-01\n\"b,1.csv\",,\n";
         let logs = logs_of_table("table", table.as_bytes(), folder.path()).unwrap();
         assert_eq!(logs[0].path(), folder.path().join("m1/2026-01-01.csv"));
-        assert_eq!((logs[1].log.as_str(), logs[1].machine.as_deref()), ("b,1.csv", None));
+        assert!(logs[1].log.ends_with("/b,1.csv") && logs[1].machine.is_none());
         for (table, problem) in [
             ("file\na.csv\n", "table: there is no column \"log\"; it has file"),
-            ("log\na\na\n", "table, row 3: a is listed twice"),
+            ("log\n/a\n/./a\n", "table, row 3: /a is listed twice"),
             ("log,time\na,yesterday\n", "table, row 2: \"yesterday\" is not a time"),
             ("log\n", "table: there are no logs"),
         ] {

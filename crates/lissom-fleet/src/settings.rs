@@ -42,7 +42,7 @@ pub struct FleetSettings {
 pub struct Refinement {
     /// Its effort.
     pub effort: EffortName,
-    /// Codes of the findings that ask for it; if empty, every refusal.
+    /// Codes of the findings that ask for it; if empty, every refusal and `angle-lag`.
     pub codes: Vec<String>,
 }
 
@@ -54,7 +54,7 @@ pub const RETRIES: u32 = 2;
 const SEARCH_SHARE: f64 = 0.8;
 
 impl FleetSettings {
-    /// Quick for every log, normal effort where an estimate is refused.
+    /// Quick for every log, normal effort where an estimate is refused or the angle lags.
     pub fn new(campaign_name: impl Into<PathBuf>, campaign: impl Into<String>) -> Self {
         Self {
             version: VERSION.to_owned(),

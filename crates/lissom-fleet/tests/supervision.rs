@@ -269,3 +269,43 @@ fn a_program_that_is_no_worker_is_an_error() {
     }
     assert!(started.elapsed().as_secs() < 30);
 }
+
+#[test]
+fn rows_take_machines_and_times_that_are_known_later() {
+    let folder = tempfile::tempdir().unwrap();
+    let program = worker(folder.path(), VERSION);
+    go(folder.path(), &program, many(20)).unwrap();
+    let mut known = many(20);
+    for (k, log) in known.iter_mut().enumerate() {
+        log.machine = (k != 3).then(|| format!("m{}", k % 2));
+        log.time_us = Some(1_000_000);
+    }
+    let progress = go(folder.path(), &program, known).unwrap();
+    assert_eq!((progress.before, progress.done), (20, 0));
+    one_row_each(folder.path(), &many(20));
+    let (logs, machines) = (names(folder.path(), "log"), names(folder.path(), "machine"));
+    let at = |name: &str| machines[logs.iter().position(|log| log == name).unwrap()].as_str();
+    assert_eq!((at("log 2"), at("log 3"), at("log 5")), ("m0", "", "m1"));
+    // Logs about which nothing is known keep what was known.
+    go(folder.path(), &program, many(20)).unwrap();
+    assert_eq!(names(folder.path(), "machine"), machines);
+}
+
+#[test]
+fn parts_that_are_not_as_they_were_written_are_refused() {
+    let folder = tempfile::tempdir().unwrap();
+    let program = worker(folder.path(), VERSION);
+    go(folder.path(), &program, many(20)).unwrap();
+    let out = folder.path().join("out");
+    let part = out.join(&open(&out).unwrap().manifest().parts[0].file);
+    let mut bytes = fs::read(&part).unwrap();
+    let middle = bytes.len() / 2;
+    bytes[middle] ^= 1;
+    fs::write(&part, bytes).unwrap();
+    assert!(matches!(open(&out), Err(FleetError::Damaged { .. })));
+    assert!(matches!(go(folder.path(), &program, many(20)), Err(FleetError::Damaged { .. })));
+    // Without its manifest a part says nothing, and is not overwritten.
+    fs::remove_file(out.join("manifest.json")).unwrap();
+    assert!(matches!(go(folder.path(), &program, many(20)), Err(FleetError::NoManifest { .. })));
+    assert!(part.is_file());
+}

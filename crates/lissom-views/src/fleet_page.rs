@@ -20,6 +20,8 @@ const DIGITS: usize = 4;
 const COMMON_LEAST: f64 = 0.05;
 /// Smallest spread of changes over their standard errors that is reported.
 const SPREAD_LEAST: f64 = 2.0;
+/// Relative changes that differ by less than this part of the larger one are about the same.
+const ALIKE: f64 = 0.25;
 /// Microseconds of a day.
 const DAY_US: f64 = 86_400e6;
 
@@ -62,7 +64,7 @@ pub fn in_words(summary: &FleetSummary) -> String {
     words.join(", ") + "."
 }
 
-/// Parameters in which the same machines change and the same machines and logs differ, as in Coulomb friction in each
+/// Parameters in which the same machines change, and the same machines and logs differ, by about the same share, as in Coulomb friction in each
 /// direction: the first of them, with the keys of all. Parameters in which nothing does are alone.
 pub fn alike(summary: &FleetSummary) -> Vec<(&ParameterSummary, Vec<&str>)> {
     let mut groups: Vec<(&ParameterSummary, Vec<&str>)> = Vec::new();
@@ -77,15 +79,26 @@ pub fn alike(summary: &FleetSummary) -> Vec<(&ParameterSummary, Vec<&str>)> {
 }
 
 fn is_alike(a: &ParameterSummary, b: &ParameterSummary) -> bool {
-    fn who(p: &ParameterSummary) -> [HashSet<&str>; 3] {
-        [
-            p.drifts.iter().map(|drift| drift.machine.as_str()).collect(),
-            p.outlying_machines.iter().map(|machine| machine.machine.as_str()).collect(),
-            p.outlying_logs.iter().map(|log| log.log.as_str()).collect(),
-        ]
+    /// What is conspicuous: where, and by how much relative to what is expected.
+    fn found(p: &ParameterSummary) -> Vec<(u8, &str, f64)> {
+        let relative = |value: f64, expected: f64| value / expected - 1.0;
+        let drifts =
+            p.drifts.iter().map(|d| (0, d.machine.as_str(), d.relative_change.unwrap_or(f64::NAN)));
+        let machines = p
+            .outlying_machines
+            .iter()
+            .map(|m| (1, m.machine.as_str(), relative(m.value, m.expected)));
+        let logs =
+            p.outlying_logs.iter().map(|l| (2, l.log.as_str(), relative(l.value, l.expected)));
+        let mut all: Vec<_> = drifts.chain(machines).chain(logs).collect();
+        all.sort_by(|a, b| (a.0, a.1).cmp(&(b.0, b.1)));
+        all
     }
-    let found = who(a);
-    found.iter().any(|names| !names.is_empty()) && found == who(b)
+    let (a, b) = (found(a), found(b));
+    let same = |(a, b): (&(u8, &str, f64), &(u8, &str, f64))| {
+        (a.0, a.1) == (b.0, b.1) && (a.2 - b.2).abs() <= ALIKE * a.2.abs().max(b.2.abs())
+    };
+    !a.is_empty() && a.len() == b.len() && a.iter().zip(&b).all(same)
 }
 
 /// What is conspicuous, a sentence for each parameter in which something is, or several that are alike.

@@ -59,7 +59,7 @@ pub(crate) struct FleetRunArgs {
     /// Effort for logs whose findings ask for it; "none" for no log
     #[arg(long, value_name = "EFFORT", default_value = "normal", value_parser = ["none", "normal", "thorough"], hide_possible_values = true)]
     pub(crate) refine: String,
-    /// Finding that asks for it, repeatable [default: every refusal]
+    /// Finding that asks for it, repeatable [default: every refusal, and angle-lag]
     #[arg(long, value_name = "CODE")]
     pub(crate) refine_on: Vec<String>,
     /// Time for a log; its process is then ended

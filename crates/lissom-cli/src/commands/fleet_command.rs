@@ -8,7 +8,7 @@ use std::path::Path;
 use std::thread;
 
 use lissom_fleet::{
-    EffortName, ExistingRows, FleetError, FleetLog, FleetRun, FleetSettings, LogPattern,
+    EffortName, ExistingRows, FleetError, FleetLog, FleetRun, FleetSettings, LogPattern, MANIFEST,
     Refinement, WorkerProgram, logs_of_paths, logs_of_table, open, run_here, serve,
 };
 use lissom_io::read_text;
@@ -19,6 +19,7 @@ use crate::commands::fleet_summary_command;
 use crate::shared::exit_codes::ExitCode;
 use crate::shared::failure::Failure;
 use crate::shared::interrupted::stopped_by_ctrl_c;
+use crate::shared::output_guard;
 use crate::shared::progress_bar::FleetBar;
 use crate::views::{fleet_run_lines, printer};
 
@@ -43,6 +44,12 @@ fn identify(args: &FleetRunArgs, own: &[OsString]) -> Result<ExitCode, Failure> 
             "lissom fleet LOGS --like campaign.toml --out DIR",
         ));
     };
+    if args.logs.is_empty() && args.table.is_none() {
+        return Err(Failure::Asked(
+            "LOGS are missing".to_owned(),
+            "lissom fleet LOGS --like campaign.toml --out DIR",
+        ));
+    }
     let Some((program, arguments)) = own.split_first() else {
         return Err(Failure::Asked("this program has no name".to_owned(), "start it by its name"));
     };
@@ -133,6 +140,13 @@ fn logs(
 
 fn table(args: &FleetTableArgs) -> Result<ExitCode, Failure> {
     let table = open(&args.folder)?;
+    let is_parquet = args.out.extension().is_some_and(|end| end.eq_ignore_ascii_case("parquet"));
+    let folder = args.out.parent().unwrap_or(Path::new(""));
+    if is_parquet && folder.join(MANIFEST).is_file() {
+        // A part would be overwritten, or taken for one.
+        return Err(Failure::IsInput { file: args.out.clone() });
+    }
+    output_guard::guard_headed(&args.out, if is_parquet { "PAR1" } else { "log,machine,time," })?;
     table.write(&args.out)?;
     Ok(ExitCode::SUCCESS)
 }

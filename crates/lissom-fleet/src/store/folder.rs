@@ -1,6 +1,6 @@
 //! A folder that is written.
 
-use std::collections::HashSet;
+use std::collections::{HashMap, HashSet};
 use std::fs;
 use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant};
@@ -10,10 +10,12 @@ use lissom_io::write::{create_folder, write_whole};
 use super::folder_lock::FolderLock;
 use super::manifest::{Manifest, PartEntry};
 use super::part::part_bytes;
-use super::part_columns::{FAILURE, LOG, Values, columns};
+use super::part_columns::{FAILURE, LOG, MACHINE, TIME, Values, columns};
 use super::table::FleetTable;
+use crate::checksum::Checksum;
 use crate::existing_rows::ExistingRows;
 use crate::fleet_error::FleetError;
+use crate::fleet_log::FleetLog;
 use crate::row::{Failure, FleetRow};
 use crate::settings::FleetSettings;
 use crate::version::VERSION;
@@ -22,6 +24,9 @@ use crate::version::VERSION;
 const MANIFEST_EVERY: Duration = Duration::from_millis(500);
 /// Ends of the names of parts.
 const PART: (&str, &str) = ("part-", ".parquet");
+
+/// Columns by name.
+type Columns = Vec<(String, Values)>;
 
 /// A folder that is written by one run at a time.
 #[derive(Debug)]
@@ -35,11 +40,12 @@ pub(crate) struct FleetFolder {
 }
 
 impl FleetFolder {
-    /// Opens a folder, or makes it. Also gives the names of logs that have rows.
+    /// Opens a folder, or makes it. Rows of `logs` take their machines and times. Also gives the names of logs that have rows.
     pub(crate) fn open(
         path: &Path,
         settings: &FleetSettings,
         existing: &ExistingRows,
+        logs: &[FleetLog],
     ) -> Result<(Self, HashSet<String>), FleetError> {
         create_folder(path)?;
         let lock = FolderLock::new(path)?;
@@ -51,6 +57,9 @@ impl FleetFolder {
                 same(path, &found.settings, settings)?;
                 found
             }
+            None if has_parts(path)? => {
+                return Err(FleetError::NoManifest { folder: path.to_owned() });
+            }
             None => {
                 let manifest = Manifest::new(settings.clone());
                 manifest.write(path)?;
@@ -61,6 +70,7 @@ impl FleetFolder {
         let listed = manifest.parts.len();
         manifest.parts.retain(|part| path.join(&part.file).exists());
         let lacks_part = manifest.parts.len() < listed;
+        manifest.check_parts(path)?;
         let numbers = manifest.parts.iter().filter_map(|part| number(&part.file));
         let next_part = numbers.max().map_or(1, |last| last + 1);
         let (written, is_behind) = (Instant::now(), lacks_part);
@@ -69,6 +79,7 @@ impl FleetFolder {
         if let ExistingRows::KeepBut(failures) = existing {
             folder.take_out(failures)?;
         }
+        folder.take_places(logs)?;
         remove_others(path, &folder.manifest)?;
         let table = FleetTable::new(path.to_owned(), folder.manifest.clone());
         let done = match table.column(LOG)? {
@@ -78,51 +89,91 @@ impl FleetFolder {
         Ok((folder, done))
     }
 
-    /// Takes out the rows with these failures: parts that have some are replaced by parts without them.
+    /// Takes out the rows with these failures.
     fn take_out(&mut self, failures: &[Failure]) -> Result<(), FleetError> {
         let is_taken = |failure: &Option<String>| {
             failure.as_deref().and_then(Failure::of).is_some_and(|f| failures.contains(&f))
         };
+        self.replace_parts(|table| {
+            let Some(Values::Text(all)) = table.column(FAILURE)? else { return Ok(None) };
+            let kept: Vec<bool> = all.iter().map(|failure| !is_taken(failure)).collect();
+            if kept.iter().all(|kept| *kept) {
+                return Ok(None);
+            }
+            let columns = table.columns()?.into_iter();
+            Ok(Some(columns.map(|(name, values)| (name, values.only(&kept))).collect()))
+        })
+    }
+
+    /// Gives rows the machines and times of their logs, where those are known: a pattern or table may have been corrected.
+    fn take_places(&mut self, logs: &[FleetLog]) -> Result<(), FleetError> {
+        let known: HashMap<&str, &FleetLog> =
+            logs.iter().map(|log| (log.log.as_str(), log)).collect();
+        self.replace_parts(|table| {
+            let mut columns = table.columns()?;
+            let Some(Values::Text(names)) = table.column(LOG)? else { return Ok(None) };
+            let of = |row: usize| names[row].as_deref().and_then(|name| known.get(name));
+            let mut differs = false;
+            for (name, values) in &mut columns {
+                match values {
+                    Values::Text(machines) if name == MACHINE => {
+                        for (row, machine) in machines.iter_mut().enumerate() {
+                            let new = of(row).and_then(|log| log.machine.clone());
+                            if new.is_some() && new != *machine {
+                                (*machine, differs) = (new, true);
+                            }
+                        }
+                    }
+                    Values::Time(times) if name == TIME => {
+                        for (row, time) in times.iter_mut().enumerate() {
+                            let new = of(row).and_then(|log| log.time_us);
+                            if new.is_some() && new != *time {
+                                (*time, differs) = (new, true);
+                            }
+                        }
+                    }
+                    _ => {}
+                }
+            }
+            Ok(differs.then_some(columns))
+        })
+    }
+
+    /// Replaces parts by parts with other columns, if `new` gives some. Parts without rows are left out.
+    fn replace_parts(
+        &mut self,
+        new: impl Fn(&FleetTable) -> Result<Option<Columns>, FleetError>,
+    ) -> Result<(), FleetError> {
         let mut parts = Vec::new();
         for part in self.manifest.parts.clone() {
             let one = Manifest { parts: vec![part.clone()], ..self.manifest.clone() };
-            let table = FleetTable::new(self.path.clone(), one);
-            let Some(Values::Text(all)) = table.column(FAILURE)? else {
+            let Some(columns) = new(&FleetTable::new(self.path.clone(), one))? else {
                 parts.push(part);
                 continue;
             };
-            let kept: Vec<bool> = all.iter().map(|failure| !is_taken(failure)).collect();
-            let rows = kept.iter().filter(|kept| **kept).count();
-            if rows == part.rows {
-                parts.push(part);
-                continue;
-            }
-            let mut columns = Vec::new();
-            for name in table.names()? {
-                if let Some(values) = table.column(&name)? {
-                    columns.push((name, values.only(&kept)));
-                }
-            }
+            self.is_behind = true;
+            let rows = columns.first().map_or(0, |(_, values)| values.len());
             if rows > 0 {
                 let failed = part.failed - (part.rows - rows);
-                let file = self.write_part(&columns)?;
-                parts.push(PartEntry { file, rows, failed, ..part });
+                let (file, sha256) = self.write_part(&columns)?;
+                parts.push(PartEntry { file, rows, failed, sha256, ..part });
             }
         }
         self.manifest.parts = parts;
-        self.is_behind = true;
         self.finish()
     }
 
-    /// Writes the next part; gives its file.
-    fn write_part(&mut self, columns: &[(String, Values)]) -> Result<String, FleetError> {
+    /// Writes the next part; gives its file and the SHA-256 of its bytes.
+    fn write_part(&mut self, columns: &[(String, Values)]) -> Result<(String, String), FleetError> {
         let file = format!("{}{:06}{}", PART.0, self.next_part, PART.1);
         let path = self.path.join(&file);
         let bytes = part_bytes(columns)
             .map_err(|e| FleetError::Damaged { path: path.clone(), problem: e.to_string() })?;
         write_whole(&path, |out| out.write_all(&bytes))?;
         self.next_part += 1;
-        Ok(file)
+        let mut checksum = Checksum::default();
+        checksum.add(&bytes[..]).map_err(|source| FleetError::Part { path, source })?;
+        Ok((file, checksum.text()))
     }
 
     /// Adds rows: a part, and the manifest now or at the next time.
@@ -130,10 +181,10 @@ impl FleetFolder {
         if rows.is_empty() {
             return Ok(());
         }
-        let file = self.write_part(&columns(rows))?;
+        let (file, sha256) = self.write_part(&columns(rows))?;
         let failed = rows.iter().filter(|row| row.failure().is_some()).count();
         let seconds = rows.iter().map(|row| row.seconds).sum();
-        self.manifest.parts.push(PartEntry { file, rows: rows.len(), failed, seconds });
+        self.manifest.parts.push(PartEntry { file, rows: rows.len(), failed, seconds, sha256 });
         self.is_behind = true;
         self.finish_if_due()
     }
@@ -184,6 +235,13 @@ fn remove_others(folder: &Path, manifest: &Manifest) -> Result<(), FleetError> {
         }
     }
     Ok(())
+}
+
+/// Whether a folder has parts.
+fn has_parts(folder: &Path) -> Result<bool, FleetError> {
+    let failed = |source| FleetError::Read { path: folder.to_owned(), source };
+    let mut entries = fs::read_dir(folder).map_err(failed)?;
+    Ok(entries.any(|entry| entry.is_ok_and(|e| number(&e.file_name().to_string_lossy()).is_some())))
 }
 
 /// The number in the name of a part.

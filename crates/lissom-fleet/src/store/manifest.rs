@@ -1,18 +1,20 @@
 //! The manifest: what was asked, and the parts that count.
 
 use std::collections::HashSet;
+use std::fs::File;
 use std::path::Path;
 
 use lissom_io::write::write_json;
 use serde::{Deserialize, Serialize};
 
+use crate::checksum::Checksum;
 use crate::fleet_error::FleetError;
 use crate::settings::FleetSettings;
 
 /// Name of the manifest's file.
 pub const MANIFEST: &str = "manifest.json";
 /// Form of the folder.
-const FORMAT: u32 = 1;
+const FORMAT: u32 = 2;
 
 /// What was asked of a fleet, and the parts that count.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
@@ -36,6 +38,8 @@ pub struct PartEntry {
     pub failed: usize,
     /// Time of its logs \[s\].
     pub seconds: f64,
+    /// SHA-256 of its bytes, in hexadecimal digits.
+    pub sha256: String,
 }
 
 impl Manifest {
@@ -66,6 +70,25 @@ impl Manifest {
             Some(part) => Err(damaged(format!("{} is no file of this folder", part.file))),
             None => Ok(Some(found)),
         }
+    }
+
+    /// Checks that the bytes of all parts are those that were written.
+    ///
+    /// # Errors
+    /// [`FleetError::Read`] or [`FleetError::Damaged`] if those of one are not.
+    pub(super) fn check_parts(&self, folder: &Path) -> Result<(), FleetError> {
+        for part in &self.parts {
+            let path = folder.join(&part.file);
+            let mut found = Checksum::default();
+            File::open(&path)
+                .and_then(|file| found.add(file))
+                .map_err(|source| FleetError::Part { path: path.clone(), source })?;
+            if found.text() != part.sha256 {
+                let problem = "its bytes are not those that were written".to_owned();
+                return Err(FleetError::Damaged { path, problem });
+            }
+        }
+        Ok(())
     }
 
     /// Replaces the manifest of a folder: all of it, or nothing.

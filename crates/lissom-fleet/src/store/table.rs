@@ -21,10 +21,12 @@ pub struct FleetTable {
 /// Opens the folder of a fleet, also while a run writes into it.
 ///
 /// # Errors
-/// [`FleetError::NoFleet`] if it has no manifest, [`FleetError::Damaged`] if that cannot be read.
+/// [`FleetError::NoFleet`] if it has no manifest, [`FleetError::Damaged`] if that cannot be read, or a part is not as it was
+/// written, [`FleetError::Part`] if a part cannot be read.
 pub fn open(folder: &Path) -> Result<FleetTable, FleetError> {
     let found = Manifest::read(folder)?;
     let manifest = found.ok_or_else(|| FleetError::NoFleet { folder: folder.to_owned() })?;
+    manifest.check_parts(folder)?;
     Ok(FleetTable::new(folder.to_owned(), manifest))
 }
 
@@ -60,6 +62,12 @@ impl FleetTable {
             }
         }
         Ok(names)
+    }
+
+    /// All columns, in the order of [`FleetTable::names`].
+    pub(super) fn columns(&self) -> Result<Vec<(String, Values)>, FleetError> {
+        let of = |name: String| Ok(self.column(&name)?.map(|values| (name, values)));
+        self.names()?.into_iter().filter_map(|name| of(name).transpose()).collect()
     }
 
     /// Keys of all estimates: a column is one if another has its standard errors.

@@ -81,7 +81,9 @@ fn between_machines(machines: &[Machine<'_>], rate: f64) -> (Vec<LogOutlier>, Ve
             let scale = if *level < center { below } else { above };
             // An estimate that is less certain than others deviates more by chance.
             let uncertain = (own(machine) - typical).max(0.0);
-            normal_deviation((level - center) / (scale * scale + uncertain).sqrt(), freedom)
+            // Machines that agree better than their estimates are certain do so by chance.
+            let variance = (scale * scale).max(typical) + uncertain;
+            normal_deviation((level - center) / variance.sqrt(), freedom)
         })
         .collect();
     let (mut logs, mut differ) = (Vec::new(), Vec::new());

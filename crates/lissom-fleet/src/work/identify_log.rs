@@ -1,7 +1,6 @@
 //! Identifies one log of a fleet.
 
 use std::fs::File;
-use std::io::Read as _;
 use std::panic::{self, AssertUnwindSafe};
 use std::path::PathBuf;
 use std::time::Instant;
@@ -9,16 +8,16 @@ use std::time::Instant;
 use lissom::io::log::LogPath;
 use lissom::io::{CampaignFile, LogError};
 use lissom::{Found, Identify};
-use sha2::{Digest as _, Sha256};
 
+use crate::checksum::Checksum;
 use crate::effort_name::EffortName;
 use crate::fleet_error::FleetError;
 use crate::fleet_log::FleetLog;
 use crate::row::{Failure, FleetRow, RowOutcome, RowResult};
 use crate::settings::{FleetSettings, Refinement};
 
-/// Bytes of a file that are read at once.
-const CHUNK: usize = 1 << 16;
+/// A lag that a quick identification takes for friction: a search decides.
+const LAG: &str = "angle-lag";
 
 /// Identifies a log. Every failure, also a defect of the program, is a row.
 pub(crate) fn identify_log(settings: &FleetSettings, log: &FleetLog) -> FleetRow {
@@ -88,7 +87,8 @@ fn not_read(error: &lissom_io::Error, log: &FleetLog) -> RowOutcome {
 /// Whether a finding asks for more effort.
 fn is_asked(more: &Refinement, result: &RowResult) -> bool {
     if more.codes.is_empty() {
-        return !result.refusals.is_empty();
+        let lag = result.warnings.iter().any(|code| code == LAG);
+        return lag || !result.refusals.is_empty();
     }
     let mut codes = result.refusals.iter().chain(&result.warnings).chain(&result.infos);
     codes.any(|code| more.codes.contains(code))
@@ -129,18 +129,10 @@ fn kind(error: &lissom_io::Error) -> Failure {
 
 /// SHA-256 of the bytes of files, one after the other.
 fn sha256(files: &[PathBuf]) -> Result<String, LogError> {
-    let (mut hash, mut chunk) = (Sha256::new(), vec![0; CHUNK]);
+    let mut checksum = Checksum::default();
     for path in files {
         let failed = |source| LogError::Open { file: path.display().to_string(), source };
-        let mut file = File::open(path).map_err(failed)?;
-        loop {
-            match file.read(&mut chunk).map_err(failed)? {
-                0 => break,
-                count => hash.update(&chunk[..count]),
-            }
-        }
+        File::open(path).and_then(|file| checksum.add(file)).map_err(failed)?;
     }
-    let digit = |half: u8| char::from_digit(half.into(), 16).unwrap_or_default();
-    let digits = hash.finalize().into_iter().flat_map(|byte| [digit(byte >> 4), digit(byte & 15)]);
-    Ok(digits.collect())
+    Ok(checksum.text())
 }

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import glob
+import hashlib
 import json
 import os
 from collections.abc import Iterable, Mapping, Sequence
@@ -13,7 +14,7 @@ import numpy as np
 
 from . import _lissom
 from ._errors import FileError, InputError, LissomError
-from ._tables import Log, _array, _is_missing, _kind, _series, is_path, path_text
+from ._tables import Log, _array, _is_missing, _kind, _series, columns, is_path, path_text
 
 #: Stands between the protocol and the rest of an address.
 _PROTOCOL = "://"
@@ -86,7 +87,7 @@ class FleetLogs:
                 if is_path(log):
                     entries += _of_path(path_text(log), except_, options, pattern, alone, run_files)
                 else:
-                    name = f"table {len(entries) + 1}"
+                    name = f"table {len(entries) + 1} ({_digest(log, len(entries) + 1)})"
                     tables[name] = log
                     entries.append(_entry(name))
         if tables and run_files is not None:
@@ -150,6 +151,16 @@ def _items(logs: Any) -> Iterable[Any]:
             "give one log as a list: [log]",
         )
     return logs
+
+
+def _digest(log: Any, number: int) -> str:
+    """Give digits that stand for the values of a table: another table gets another row."""
+    digest = hashlib.sha256()
+    for name, values in columns(log, f"table {number}"):
+        array = np.asarray(values)
+        digest.update(name.encode())
+        digest.update(repr(array.tolist()).encode() if array.dtype == object else array.tobytes())
+    return digest.hexdigest()[:8]
 
 
 def _entry(name: str, file: str | None = None) -> dict[str, Any]:
@@ -227,16 +238,17 @@ def _is_table_of_logs(logs: Any) -> bool:
 
 
 def _of_table(table: Any) -> list[dict[str, Any]]:
-    columns = dict(_series(table, "table of logs"))
-    names = [None if _is_missing(name) else name for name in _array(columns[_LOG])]
+    found = dict(_series(table, "table of logs"))
+    names = [None if _is_missing(name) else name for name in _array(found[_LOG])]
     rows = len(names)
-    machines = _column(columns.get(_MACHINE), rows, _MACHINE)
-    times = _column(columns.get(_TIME), rows, _TIME)
+    machines = _column(found.get(_MACHINE), rows, _MACHINE)
+    times = _column(found.get(_TIME), rows, _TIME)
     entries = []
     for row, (name, machine, time) in enumerate(zip(names, machines, times, strict=True), start=1):
         if name is None or not is_path(name):
             raise InputError(f"table of logs, row {row}: {name!r} is no path", "give paths in the column `log`")
-        entry = _entry(path_text(name))
+        path = path_text(name)
+        entry = _entry(path if is_address(path) else os.path.abspath(path))
         # A column of whole numbers in which one is missing has floats.
         whole = isinstance(machine, float) and machine.is_integer()
         entry["machine"] = None if machine is None else str(int(machine) if whole else machine)

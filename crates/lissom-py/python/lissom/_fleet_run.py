@@ -68,7 +68,8 @@ def fleet(
         of names to tables in memory; or a table (pandas, polars, columns by name) with the columns ``log`` and, if known,
         ``machine`` and ``time``.
     like : Campaign or path
-        What describes every log: a campaign, or a campaign.toml. Its runs are read only with `by_folder`.
+        What describes every log: a campaign, or a campaign.toml. Its runs are read only with `by_folder`, for which it is a
+        campaign.toml.
     out : path
         Folder for the rows.
     pattern : str, optional
@@ -86,7 +87,7 @@ def fleet(
     refine : {'normal', 'thorough'}, optional
         Effort for logs whose findings ask for it; None for no log.
     refine_on : sequence of str
-        Codes of findings that ask for it; every refusal if empty.
+        Codes of findings that ask for it; every refusal, and ``angle-lag``, if empty.
     time_limit : float
         Time for one log [s]. A search ends with its best result after 80 % of it; a process that needs longer is ended.
     retries : int
