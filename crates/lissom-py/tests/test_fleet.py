@@ -121,7 +121,7 @@ def test_executors(folder: Path, tmp_path: Path) -> None:
 def client() -> Iterator[Any]:
     """A Dask cluster of two processes."""
     distributed = pytest.importorskip("distributed")
-    cluster = distributed.LocalCluster(n_workers=2, threads_per_worker=1, dashboard_address=None, memory_limit=None)
+    cluster = distributed.LocalCluster(n_workers=2, threads_per_worker=1, dashboard_address=":0", memory_limit=None)
     with cluster, distributed.Client(cluster) as client:
         yield client
 
