@@ -5,6 +5,7 @@ use std::f64::consts::TAU;
 use crate::axis::{Ruler, Steps};
 use crate::bode_series::{FrequencyAxis, Series, Style};
 use crate::canvas::{Anchor, Canvas, Drawing, Rect, TextStyle};
+use crate::figure_data::{AxisData, FigureData, PanelData, TraceData};
 use crate::figure_error::FigureError;
 use crate::figure_trait::{Figure, Sealed};
 use crate::font::Weight;
@@ -17,6 +18,7 @@ use crate::png_writer::png;
 use crate::scale::{Scale, extent};
 use crate::svg_writer::svg;
 use crate::text_fit::width;
+use crate::trace::{Axis, Quantity, TraceStyle};
 
 const SHEET_WIDTH: f64 = 760.0;
 const RIGHT_MARGIN: f64 = 24.0;
@@ -28,6 +30,8 @@ const TOP_AXIS_HEIGHT: f64 = 42.0;
 const LEAST_DB: f64 = 1.0;
 /// The least phase range in degrees.
 const LEAST_DEGREES: f64 = 10.0;
+/// Label of the lower axis.
+const PHASE_LABEL: &str = "Phase (°)";
 
 /// Magnitude and phase of frequency responses.
 ///
@@ -136,6 +140,30 @@ impl BodePlot {
         Ok((prepared, skipped))
     }
 
+    fn magnitude_label(&self) -> String {
+        if self.unit.is_empty() {
+            "Magnitude (dB)".to_owned()
+        } else {
+            format!("Magnitude (dB re 1 {})", self.unit)
+        }
+    }
+
+    /// What an interactive drawing of one of the two panels needs.
+    fn panel_data(&self, y: Axis, marks: &[(&Series, Vec<Mark>)]) -> PanelData {
+        let style = |series: &Series| match series.style {
+            Style::Line => TraceStyle::Line,
+            Style::Points | Style::PointsWithBars => TraceStyle::Points,
+        };
+        let traces =
+            marks.iter().map(|(s, marks)| TraceData::of(&s.label, s.role, style(s), marks));
+        PanelData {
+            y: AxisData::of(&y),
+            traces: traces.collect(),
+            bands: Vec::new(),
+            regions: Vec::new(),
+        }
+    }
+
     fn entries(&self) -> Vec<Entry> {
         let mut entries: Vec<Entry> = Vec::new();
         for series in self.series.iter().filter(|s| !s.omega_rad_s.is_empty()) {
@@ -209,13 +237,8 @@ impl BodePlot {
             });
             panel.frame(&mut canvas);
         }
-        let unit = if self.unit.is_empty() {
-            "Magnitude (dB)".to_owned()
-        } else {
-            format!("Magnitude (dB re 1 {})", self.unit)
-        };
-        upper.y_labels(&mut canvas, &unit, 22.0);
-        lower.y_labels(&mut canvas, "Phase (°)", 22.0);
+        upper.y_labels(&mut canvas, &self.magnitude_label(), 22.0);
+        lower.y_labels(&mut canvas, PHASE_LABEL, 22.0);
         let hertz = self.frequency_axis == FrequencyAxis::Hertz;
         lower.x_labels(&mut canvas, if hertz { "Frequency (Hz)" } else { "Frequency (rad/s)" });
         if both {
@@ -249,6 +272,34 @@ impl BodePlot {
 impl Sealed for BodePlot {}
 
 impl Figure for BodePlot {
+    fn data(&self) -> Result<FigureData, FigureError> {
+        let (prepared, skipped) = self.prepare()?;
+        let per_unit = if self.frequency_axis == FrequencyAxis::Hertz { TAU } else { 1.0 };
+        let of = |marks: &dyn Fn(&Prepared<'_>) -> Vec<Mark>| {
+            let in_rad_s =
+                |p| marks(p).into_iter().map(|m| Mark { x: m.x * per_unit, ..m }).collect();
+            let shown = prepared.iter().filter(|p| !p.magnitude.is_empty());
+            shown.map(|p| (p.series, in_rad_s(p))).collect::<Vec<_>>()
+        };
+        let magnitude = of(&|p| p.magnitude.clone());
+        if magnitude.is_empty() {
+            return Err(FigureError::NothingToDraw { title: self.title.clone(), skipped });
+        }
+        let decibels = Axis::linear(self.magnitude_label()).quantity(Quantity::Decibels);
+        let degrees = Axis::linear(PHASE_LABEL).quantity(Quantity::Degrees);
+        let frequency = Axis::log("Frequency (rad/s)").quantity(Quantity::FrequencyRadPerSecond);
+        Ok(FigureData {
+            title: self.title.clone(),
+            subtitle: self.subtitle.clone(),
+            x: AxisData::of(&frequency),
+            panels: vec![
+                self.panel_data(decibels, &magnitude),
+                self.panel_data(degrees, &of(&|p| p.phase.clone())),
+            ],
+            skipped,
+        })
+    }
+
     fn to_svg(&self) -> Result<String, FigureError> {
         Ok(svg(&self.drawing()?))
     }

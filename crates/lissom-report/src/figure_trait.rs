@@ -1,5 +1,6 @@
 //! The trait of all figures.
 
+use crate::figure_data::FigureData;
 use crate::figure_error::FigureError;
 
 /// Keeps [`Figure`] to this crate, whose SVG has no ids that could clash on a page.
@@ -16,6 +17,13 @@ pub trait Figure: Sealed {
     /// [`FigureError::Length`] when the vectors of a series differ in length, [`FigureError::NothingToDraw`] when no
     /// point is drawable, [`FigureError::Range`] when an axis is given a range it cannot have.
     fn to_svg(&self) -> Result<String, FigureError>;
+
+    /// What an interactive drawing of the figure needs.
+    ///
+    /// # Errors
+    ///
+    /// [`FigureError::Length`] and [`FigureError::NothingToDraw`] as [`to_svg`](Self::to_svg).
+    fn data(&self) -> Result<FigureData, FigureError>;
 
     /// Draws the figure on white, `scale` pixels to one SVG unit, and returns the bytes of a PNG file.
     ///

@@ -2,6 +2,7 @@
 
 use crate::axis::{Ruler, Steps};
 use crate::canvas::{Anchor, Canvas, Drawing, Rect, Stroke, TextStyle};
+use crate::figure_data::{AxisData, BandData, FigureData, PanelData, RegionData, TraceData};
 use crate::figure_error::FigureError;
 use crate::figure_trait::{Figure, Sealed};
 use crate::font::Weight;
@@ -299,9 +300,46 @@ pub(crate) fn sheet(
     Ok(canvas.finish(SHEET_WIDTH, bottom, title))
 }
 
+/// What an interactive drawing of plots one above the other needs.
+pub(crate) fn sheet_data(
+    title: &str,
+    subtitle: Option<&str>,
+    plots: &[&LinePlot],
+) -> Result<FigureData, FigureError> {
+    let (mut panels, mut all) = (Vec::new(), 0);
+    for plot in plots {
+        let (marks, skipped) = plot.marks()?;
+        all += skipped;
+        let traces = plot.traces.iter().zip(&marks);
+        let traces = traces.filter(|(_, marks)| !marks.is_empty());
+        panels.push(PanelData {
+            y: AxisData::of(&plot.y),
+            traces: traces
+                .map(|(t, marks)| TraceData::of(&t.label, t.role, t.style, marks))
+                .collect(),
+            bands: plot.drawable_bands().map(BandData::of).collect(),
+            regions: plot.drawable_regions().map(RegionData::of).collect(),
+        });
+    }
+    match plots.last() {
+        Some(last) if panels.iter().any(|panel| !panel.traces.is_empty()) => Ok(FigureData {
+            title: title.to_owned(),
+            subtitle: subtitle.map(str::to_owned),
+            x: AxisData::of(&last.x),
+            panels,
+            skipped: all,
+        }),
+        _ => Err(FigureError::NothingToDraw { title: title.to_owned(), skipped: all }),
+    }
+}
+
 impl Sealed for LinePlot {}
 
 impl Figure for LinePlot {
+    fn data(&self) -> Result<FigureData, FigureError> {
+        sheet_data(&self.title, self.subtitle.as_deref(), &[self])
+    }
+
     fn to_svg(&self) -> Result<String, FigureError> {
         Ok(svg(&self.drawing()?))
     }

@@ -1,5 +1,6 @@
 //! One HTML page that loads nothing else.
 
+use std::collections::HashSet;
 use std::fmt::Write as _;
 
 use crate::Figure;
@@ -7,22 +8,38 @@ use crate::html::escape;
 use crate::page_parts::{Cells, Finding, KeyFigure, Table};
 use lissom_text::{interval, with_uncertainty};
 
-const STYLE: &str = include_str!("page.css");
+const STYLE: &str = concat!(include_str!("page/uplot.css"), include_str!("page/page.css"));
+/// Makes figures interactive. Built from `web/src/page.ts`.
+const SCRIPT: &str = include_str!("page/page.js");
+/// SHA-256 of the script, Base64: the only one that the page may run.
+const SCRIPT_HASH: &str = include_str!("page/page.js.sha256");
 
 /// Builds the page; its parts appear in the order they are added.
 ///
-/// The page loads nothing: style and figures are inline, there is no script, and a content security policy forbids
-/// requests. All text is escaped.
+/// The page loads nothing: style, figures and script are inline, and a content security policy forbids requests and all other
+/// scripts. All text is escaped. Without scripts, and in print, figures are pictures; with them, a reader can zoom, read values,
+/// choose units, and save the samples.
 #[derive(Clone, Debug)]
 pub struct Page {
     title: String,
     body: String,
+    /// Anchor and text of each heading.
+    headings: Vec<(String, String)>,
+    /// Where in the body the list of contents belongs.
+    contents_at: Option<usize>,
+    has_data: bool,
 }
 
 impl Page {
     /// A page with its title.
     pub fn new(title: impl Into<String>) -> Self {
-        Self { title: title.into(), body: String::new() }
+        Self {
+            title: title.into(),
+            body: String::new(),
+            headings: Vec::new(),
+            contents_at: None,
+            has_data: false,
+        }
     }
 
     fn put(mut self, html: &str) -> Self {
@@ -37,10 +54,34 @@ impl Page {
         self.put(&format!("<p class=\"summary\">{}</p>", escape(text)))
     }
 
-    /// A heading.
+    /// A heading, to which the list of contents refers.
     #[must_use]
-    pub fn heading(self, text: &str) -> Self {
-        self.put(&format!("<h2>{}</h2>", escape(text)))
+    pub fn heading(mut self, text: &str) -> Self {
+        let anchor = self.anchor(text);
+        self.headings.push((anchor.clone(), text.to_owned()));
+        self.put(&format!("<h2 id=\"{anchor}\">{}</h2>", escape(text)))
+    }
+
+    /// A list of the headings that follow.
+    #[must_use]
+    pub fn contents(mut self) -> Self {
+        self.contents_at = Some(self.body.len());
+        self.headings.clear();
+        self
+    }
+
+    /// A name for a heading, of letters, digits and hyphens, that no other one has.
+    fn anchor(&self, text: &str) -> String {
+        let plain = text.chars().map(|c| if c.is_ascii_alphanumeric() { c } else { ' ' });
+        let plain = plain.collect::<String>().to_ascii_lowercase();
+        let words: Vec<&str> = plain.split_whitespace().collect();
+        let name = if words.is_empty() { "section".to_owned() } else { words.join("-") };
+        let taken: HashSet<&str> = self.headings.iter().map(|(name, _)| name.as_str()).collect();
+        let numbered = (2..).map(|k| format!("{name}-{k}"));
+        std::iter::once(name.clone())
+            .chain(numbered)
+            .find(|name| !taken.contains(name.as_str()))
+            .unwrap_or_default()
     }
 
     /// A paragraph.
@@ -85,12 +126,19 @@ impl Page {
 
     /// A figure with its caption; if it cannot be drawn, the page shows the reason instead.
     #[must_use]
-    pub fn figure<F: Figure + ?Sized>(self, figure: &F, caption: &str) -> Self {
+    pub fn figure<F: Figure + ?Sized>(mut self, figure: &F, caption: &str) -> Self {
         let picture = figure.to_svg().unwrap_or_else(|error| {
             format!("<p class=\"missing\">Not drawn: {}.</p>", escape(&error.to_string()))
         });
+        let data = figure.data().ok().and_then(|data| serde_json::to_string(&data).ok());
+        let data = data.map_or_else(String::new, |json| {
+            // JSON in which no tag, reference or end of CDATA can stand.
+            let json = json.replace('&', "\\u0026").replace('<', "\\u003c").replace('>', "\\u003e");
+            format!("<script type=\"application/json\" class=\"figure-data\">{json}</script>")
+        });
+        self.has_data |= !data.is_empty();
         self.put(&format!(
-            "<figure><div class=\"wide plot\">{picture}</div><figcaption>{}</figcaption></figure>",
+            "<figure><div class=\"wide plot\">{picture}</div>{data}<figcaption>{}</figcaption></figure>",
             escape(caption)
         ))
     }
@@ -150,13 +198,37 @@ impl Page {
 
     /// The page as a complete HTML document.
     pub fn to_html(&self) -> String {
-        let (title, body) = (escape(&self.title), &self.body);
+        let title = escape(&self.title);
+        let (before, after) = self.body.split_at(self.contents_at.unwrap_or(0));
+        let contents = self.contents_html();
+        let (bar, allowed, script) = if self.has_data {
+            (
+                "<div id=\"units\" hidden=\"hidden\"></div>\n",
+                format!(" script-src 'sha256-{SCRIPT_HASH}';"),
+                format!("<script>{SCRIPT}</script>\n"),
+            )
+        } else {
+            ("", String::new(), String::new())
+        };
         format!(
             "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\"/>\n\
-             <meta http-equiv=\"Content-Security-Policy\" content=\"default-src 'none'; style-src 'unsafe-inline'\"/>\n\
+             <meta http-equiv=\"Content-Security-Policy\" content=\"default-src 'none';{allowed} style-src 'unsafe-inline'\"/>\n\
              <meta name=\"viewport\" content=\"width=device-width, initial-scale=1\"/>\n<title>{title}</title>\n\
-             <style>\n{STYLE}</style>\n</head>\n<body>\n<main>\n<h1>{title}</h1>\n{body}</main>\n</body>\n</html>\n"
+             <style>\n{STYLE}</style>\n</head>\n<body>\n<main>\n<h1>{title}</h1>\n{before}{contents}{bar}{after}</main>\n\
+             {script}</body>\n</html>\n"
         )
+    }
+
+    fn contents_html(&self) -> String {
+        if self.contents_at.is_none() || self.headings.is_empty() {
+            return String::new();
+        }
+        let mut html = "<nav aria-label=\"Contents\"><ul>\n".to_owned();
+        for (anchor, text) in &self.headings {
+            let _ = writeln!(html, "<li><a href=\"#{anchor}\">{}</a></li>", escape(text));
+        }
+        html.push_str("</ul></nav>\n");
+        html
     }
 }
 

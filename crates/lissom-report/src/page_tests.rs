@@ -36,6 +36,8 @@ fn full() -> String {
     };
     Page::new(HOSTILE)
         .summary(HOSTILE)
+        .contents()
+        .heading(HOSTILE)
         .heading(HOSTILE)
         .paragraph(HOSTILE)
         .key_figures(HOSTILE, &[figure, refused])
@@ -64,7 +66,11 @@ fn the_page_is_well_formed_and_nothing_breaks_out() {
     .unwrap();
     let names =
         |name: &'static str| document.descendants().filter(move |n| n.tag_name().name() == name);
-    assert_eq!(names("script").count(), 0);
+    // The data of two figures, and the script of the page.
+    let scripts: Vec<_> = names("script").collect();
+    assert_eq!(scripts.len(), 3);
+    let data: serde_json::Value = serde_json::from_str(scripts[0].text().unwrap()).unwrap();
+    assert_eq!(data["title"], HOSTILE);
     assert_eq!(names("figure").count(), 3);
     assert_eq!(names("details").count(), 1);
     assert_eq!(
@@ -76,8 +82,18 @@ fn the_page_is_well_formed_and_nothing_breaks_out() {
 #[test]
 fn nothing_is_loaded_and_no_id_clashes() {
     let html = full();
-    for foreign in ["src=", "href=", "url(", "@import", " id="] {
+    // The script of the page is tested in a browser.
+    let html = html.replace(SCRIPT, "");
+    for foreign in ["src=", "url(", "@import"] {
         assert!(!html.contains(foreign), "{foreign}");
+    }
+    let ids: Vec<&str> =
+        html.split(" id=\"").skip(1).filter_map(|rest| rest.split('"').next()).collect();
+    let distinct: HashSet<&str> = ids.iter().copied().collect();
+    assert_eq!(ids.len(), distinct.len(), "{ids:?}");
+    let links = html.split(" href=\"").skip(1).filter_map(|rest| rest.split('"').next());
+    for link in links {
+        assert!(link.strip_prefix('#').is_some_and(|id| distinct.contains(id)), "{link}");
     }
     let addresses = html.matches("http").count();
     assert_eq!(
@@ -105,4 +121,17 @@ fn figures_findings_and_refusals_read_right() {
     assert!(html.contains("Not drawn: figure &quot;&quot; has no point to draw"));
     assert!(html.find("stuck").unwrap() < html.find(">info<").unwrap(), "refusals come first");
     assert!(Page::new("t").findings(&[]).to_html().contains("No findings."));
+}
+
+#[test]
+fn only_the_script_of_the_page_may_run() {
+    use base64::Engine as _;
+    use sha2::Digest as _;
+    let digest = sha2::Sha256::digest(SCRIPT.as_bytes());
+    let hash = base64::engine::general_purpose::STANDARD.encode(digest);
+    assert_eq!(SCRIPT_HASH, hash);
+    assert!(full().contains(&format!("script-src 'sha256-{hash}';")));
+    assert!(!SCRIPT.contains("</script") && SCRIPT.ends_with("//]]>"));
+    // A page without figures needs no script.
+    assert!(!Page::new("t").paragraph("p").to_html().contains("<script"));
 }

@@ -1,9 +1,10 @@
 //! Plots one above the other over one horizontal axis: an angle and its velocity, an angle and its residual.
 
 use crate::canvas::Drawing;
+use crate::figure_data::FigureData;
 use crate::figure_error::FigureError;
 use crate::figure_trait::{Figure, Sealed};
-use crate::line_plot::{LinePlot, sheet};
+use crate::line_plot::{LinePlot, sheet, sheet_data};
 use crate::png_writer::png;
 use crate::svg_writer::svg;
 
@@ -68,6 +69,11 @@ impl StackedPlot {
 impl Sealed for StackedPlot {}
 
 impl Figure for StackedPlot {
+    fn data(&self) -> Result<FigureData, FigureError> {
+        let plots: Vec<&LinePlot> = self.plots.iter().collect();
+        sheet_data(&self.title, self.subtitle.as_deref(), &plots)
+    }
+
     fn to_svg(&self) -> Result<String, FigureError> {
         Ok(svg(&self.drawing()?))
     }

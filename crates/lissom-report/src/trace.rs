@@ -6,6 +6,20 @@ use crate::marks::Mark;
 use crate::palette::Role;
 use crate::scale::Scale;
 
+/// What an axis shows, where a reader may want other units.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+pub enum Quantity {
+    /// As it is.
+    #[default]
+    Plain,
+    /// A frequency in rad/s, which is also shown in Hz.
+    FrequencyRadPerSecond,
+    /// A magnitude in dB, which is also shown as a ratio.
+    Decibels,
+    /// A phase in degrees, which is also shown within half a turn.
+    Degrees,
+}
+
 /// One axis.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Axis {
@@ -13,6 +27,8 @@ pub struct Axis {
     pub label: String,
     /// Linear or logarithmic.
     pub scale: Scale,
+    /// What it shows.
+    pub quantity: Quantity,
     /// The ends of the axis; without them it shows all data.
     pub range: Option<(f64, f64)>,
 }
@@ -25,7 +41,14 @@ impl Axis {
 
     /// A logarithmic axis over all positive data.
     pub fn log(label: impl Into<String>) -> Self {
-        Self { label: label.into(), scale: Scale::Log, range: None }
+        Self { label: label.into(), scale: Scale::Log, ..Self::default() }
+    }
+
+    /// Says what the axis shows.
+    #[must_use]
+    pub fn quantity(mut self, quantity: Quantity) -> Self {
+        self.quantity = quantity;
+        self
     }
 
     /// Fixes the ends of the axis.

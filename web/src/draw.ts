@@ -1,0 +1,196 @@
+// Draws what is over one pair of axes.
+
+import type uPlot from "uplot";
+import { type Colours, dashOf, markerOf, outline } from "./colours";
+import type { BandData, RegionData } from "./figure_data";
+import type { ShownTrace } from "./units";
+
+export interface PanelView {
+  readonly traces: readonly ShownTrace[];
+  readonly bands: readonly BandData[];
+  readonly regions: readonly RegionData[];
+  /** Converts the bounds of bands and of regions. */
+  readonly convertX: (x: number) => number;
+  readonly convertY: (y: number) => number;
+  isShown(label: string, role: string): boolean;
+}
+
+const LINE_WIDTH = 1.6;
+const MARKER_RADIUS = 3.6;
+const SHADE = 0.16;
+/** The part of the distance between neighbours that a column fills. */
+const COLUMN_FILL = 0.7;
+
+export function draw(u: uPlot, view: PanelView, colours: Colours): void {
+  const { ctx, bbox } = u;
+  const ratio = devicePixelRatio || 1;
+  ctx.save();
+  ctx.beginPath();
+  ctx.rect(bbox.left, bbox.top, bbox.width, bbox.height);
+  ctx.clip();
+  const toX = (x: number) => u.valToPos(x, "x", true);
+  const toY = (y: number) => u.valToPos(y, "y", true);
+  shade(ctx, view, colours, bbox, toX, toY);
+  const shown = view.traces.filter((trace) => view.isShown(trace.of.label, trace.of.role));
+  for (const trace of shown) {
+    ctx.strokeStyle = ctx.fillStyle = colours.of(trace.of.role);
+    ctx.lineWidth = LINE_WIDTH * ratio;
+    const style = trace.of.style;
+    if (style === "columns") columns(ctx, trace, toX, toY, colours);
+    else if (style !== "points") {
+      if (trace.low.length > 0) ribbon(ctx, trace, toX, toY);
+      ctx.setLineDash(dashOf(trace.of.role, style).map((length) => length * ratio));
+      line(ctx, trace, toX, toY, style === "steps");
+      ctx.setLineDash([]);
+    }
+  }
+  for (const trace of shown) {
+    if (trace.of.style === "points" || trace.of.style === "columns") bars(ctx, trace, toX, toY, colours, ratio);
+    if (trace.of.style === "points") points(ctx, trace, toX, toY, colours, ratio);
+  }
+  ctx.restore();
+}
+
+type Place = (value: number) => number;
+
+function shade(
+  ctx: CanvasRenderingContext2D,
+  view: PanelView,
+  colours: Colours,
+  bbox: uPlot.BBox,
+  toX: Place,
+  toY: Place,
+): void {
+  for (const region of view.regions) {
+    if (!view.isShown(region.label, region.role)) continue;
+    const [left, right] = [toX(view.convertX(region.from)), toX(view.convertX(region.to))];
+    ctx.globalAlpha = SHADE;
+    ctx.fillStyle = colours.of(region.role);
+    ctx.fillRect(left, bbox.top, right - left, bbox.height);
+    ctx.globalAlpha = 1;
+  }
+  for (const band of view.bands) {
+    if (!view.isShown(band.label, band.role)) continue;
+    const [low, middle, high] = [band.low, band.middle, band.high].map((y) => toY(view.convertY(y))) as [
+      number,
+      number,
+      number,
+    ];
+    ctx.fillStyle = ctx.strokeStyle = colours.of(band.role);
+    ctx.globalAlpha = SHADE;
+    ctx.fillRect(bbox.left, high, bbox.width, low - high);
+    ctx.globalAlpha = 1;
+    ctx.beginPath();
+    ctx.moveTo(bbox.left, middle);
+    ctx.lineTo(bbox.left + bbox.width, middle);
+    ctx.lineWidth = devicePixelRatio || 1;
+    ctx.stroke();
+  }
+}
+
+function line(ctx: CanvasRenderingContext2D, trace: ShownTrace, toX: Place, toY: Place, steps: boolean): void {
+  ctx.beginPath();
+  let before: number | null = null;
+  trace.x.forEach((x, k) => {
+    const value = trace.y[k];
+    if (value === null || value === undefined) {
+      before = null;
+      return;
+    }
+    const [px, py] = [toX(x), toY(value)];
+    if (before === null) ctx.moveTo(px, py);
+    else {
+      if (steps) ctx.lineTo(px, before);
+      ctx.lineTo(px, py);
+    }
+    before = py;
+  });
+  ctx.stroke();
+}
+
+/** The area between lower and upper ends of a line. */
+function ribbon(ctx: CanvasRenderingContext2D, trace: ShownTrace, toX: Place, toY: Place): void {
+  const ends = trace.x.map((x, k) => [toX(x), trace.low[k], trace.high[k]] as const);
+  const known = ends.filter(([, low, high]) => low != null && high != null);
+  if (known.length < 2) return;
+  ctx.beginPath();
+  for (const [x, low] of known) ctx.lineTo(x, toY(low as number));
+  for (const [x, , high] of [...known].reverse()) ctx.lineTo(x, toY(high as number));
+  ctx.closePath();
+  ctx.globalAlpha = SHADE;
+  ctx.fill();
+  ctx.globalAlpha = 1;
+}
+
+function columns(ctx: CanvasRenderingContext2D, trace: ShownTrace, toX: Place, toY: Place, colours: Colours): void {
+  const places = trace.x.map(toX).sort((a, b) => a - b);
+  let gap = Number.POSITIVE_INFINITY;
+  places.forEach((place, k) => {
+    const next = places[k + 1];
+    if (next !== undefined && next > place) gap = Math.min(gap, next - place);
+  });
+  const width = Math.min(Math.max(COLUMN_FILL * gap, 1), 44 * (devicePixelRatio || 1));
+  const foot = Math.min(toY(0), 1e6);
+  trace.x.forEach((x, k) => {
+    const y = trace.y[k];
+    if (y === null || y === undefined) return;
+    const [px, py] = [toX(x), toY(y)];
+    ctx.fillRect(px - width / 2, Math.min(py, foot), width, Math.abs(py - foot));
+  });
+  ctx.strokeStyle = colours.ink;
+  ctx.lineWidth = devicePixelRatio || 1;
+  ctx.beginPath();
+  ctx.moveTo(0, foot);
+  ctx.lineTo(ctx.canvas.width, foot);
+  ctx.stroke();
+}
+
+function bars(
+  ctx: CanvasRenderingContext2D,
+  trace: ShownTrace,
+  toX: Place,
+  toY: Place,
+  colours: Colours,
+  ratio: number,
+): void {
+  ctx.strokeStyle = trace.of.style === "columns" ? colours.ink : colours.of(trace.of.role);
+  ctx.lineWidth = ratio;
+  ctx.beginPath();
+  trace.x.forEach((x, k) => {
+    const [low, high] = [trace.low[k], trace.high[k]];
+    if (low == null && high == null) return;
+    const px = toX(x);
+    const ends = [low, high].map((end, i) => (end == null ? (i === 0 ? ctx.canvas.height : 0) : toY(end)));
+    ctx.moveTo(px, ends[0] as number);
+    ctx.lineTo(px, ends[1] as number);
+    for (const end of ends) {
+      ctx.moveTo(px - 3 * ratio, end);
+      ctx.lineTo(px + 3 * ratio, end);
+    }
+  });
+  ctx.stroke();
+}
+
+function points(
+  ctx: CanvasRenderingContext2D,
+  trace: ShownTrace,
+  toX: Place,
+  toY: Place,
+  colours: Colours,
+  ratio: number,
+): void {
+  const marker = markerOf(trace.of.role);
+  for (const flagged of [false, true]) {
+    ctx.beginPath();
+    trace.x.forEach((x, k) => {
+      const y = trace.y[k];
+      if (y == null || trace.flagged.has(k) !== flagged) return;
+      outline(ctx, marker, toX(x), toY(y), MARKER_RADIUS * ratio);
+    });
+    ctx.lineWidth = flagged ? 1.5 * ratio : ratio;
+    ctx.fillStyle = flagged ? colours.paper : colours.of(trace.of.role);
+    ctx.strokeStyle = flagged ? colours.flagged : colours.paper;
+    ctx.fill();
+    ctx.stroke();
+  }
+}
