@@ -32,6 +32,8 @@ export class Figure {
   private log = false;
   private width = 0;
   private readonly key = `figure-${++figures}`;
+  /** What ends with the figure. */
+  private readonly ends: (() => void)[] = [];
 
   /** `picture` is the same figure as SVG. */
   constructor(place: HTMLElement, data: FigureData, choice: UnitChoice, picture: Element | null) {
@@ -70,14 +72,28 @@ export class Figure {
     tools.append(this.readout);
     place.append(head, this.legend.element, this.frames, tools, this.table());
     this.readout.setAttribute("aria-live", "off");
-    choice.listen(() => this.restore(true));
-    new ResizeObserver(() => {
+    this.ends.push(choice.listen(() => this.restore(true)));
+    const sizes = new ResizeObserver(() => {
       if (Math.abs(this.frames.clientWidth - this.width) >= 1) this.restore(true);
-    }).observe(this.frames);
-    matchMedia("(prefers-color-scheme: dark)").addEventListener("change", () => {
+    });
+    sizes.observe(this.frames);
+    const scheme = matchMedia("(prefers-color-scheme: dark)");
+    const recolour = () => {
       this.legend.redraw();
       this.restore(true);
-    });
+    };
+    scheme.addEventListener("change", recolour);
+    this.ends.push(
+      () => sizes.disconnect(),
+      () => scheme.removeEventListener("change", recolour),
+    );
+  }
+
+  /** Ends the figure: its place is free for another one. */
+  end(): void {
+    for (const end of this.ends) end();
+    for (const plot of this.plots) plot.destroy();
+    this.plots = [];
   }
 
   private button(text: string, title: string, action: () => void): HTMLButtonElement {
@@ -110,7 +126,7 @@ export class Figure {
     details.append(place);
     const fill = () => place.replaceChildren(...(details.open ? tables(this.data, this.choice.units) : []));
     details.addEventListener("toggle", fill);
-    this.choice.listen(fill);
+    this.ends.push(this.choice.listen(fill));
     return details;
   }
 
@@ -190,7 +206,7 @@ export class Figure {
       series: [{}, { paths: () => null, points: { show: false } }],
       axes: [
         { ...axis, values: ticks, show: true, size: isLast ? LABELS : 8, ...(isLast ? { label: shownAxis(this.data.x, units).label, labelSize: 20 } : { values: () => [] }) },
-        { ...axis, values: ticks, label: y.label, labelSize: 22, size: 56 },
+        { ...axis, values: ticks, label: y.label, labelSize: 22, size: 62 },
       ],
       padding: [8, 14, 0, 0],
       hooks: {

@@ -1,7 +1,7 @@
 // The report page: its figures become interactive.
 
 import { Figure } from "./figure";
-import type { FigureData } from "./figure_data";
+import { type StoredChoices, type StoredFigure, unpacked } from "./figure_data";
 import { UnitChoice, type Units } from "./units";
 
 const choice = new UnitChoice();
@@ -26,13 +26,50 @@ function chooser<K extends keyof Units>(name: string, key: K, values: readonly U
   return group;
 }
 
+type Stored = StoredFigure | StoredChoices;
+
+function figuresOf(stored: Stored): readonly StoredFigure[] {
+  return "all" in stored ? stored.all.map(({ figure }) => figure) : [stored];
+}
+
+/** Makes a figure interactive. */
+function enliven(place: Element, stored: Stored): void {
+  const live = document.createElement("div");
+  live.className = "live";
+  const picture = place.querySelector(".plot > svg");
+  place.classList.add("interactive");
+  if ("all" in stored) {
+    const label = document.createElement("label");
+    label.className = "chooser";
+    const select = document.createElement("select");
+    for (const { name } of stored.all) select.append(new Option(name));
+    label.append(stored.choose, " ", select);
+    place.prepend(label, live);
+    let shown: Figure | null = null;
+    const show = () => {
+      const chosen = stored.all[select.selectedIndex];
+      shown?.end();
+      live.replaceChildren();
+      // Only of the first figure is there a picture.
+      const own = select.selectedIndex === 0 ? picture : null;
+      shown = chosen ? new Figure(live, unpacked(chosen.figure), choice, own) : null;
+    };
+    select.addEventListener("change", show);
+    show();
+  } else {
+    place.prepend(live);
+    new Figure(live, unpacked(stored), choice, picture);
+  }
+}
+
 function begin(): void {
-  const found: [HTMLElement, FigureData][] = [];
+  const found: [HTMLElement, Stored][] = [];
   for (const script of document.querySelectorAll('script[type="application/json"].figure-data')) {
     const figure = script.closest("figure");
-    if (figure) found.push([figure, JSON.parse(script.textContent ?? "") as FigureData]);
+    if (figure) found.push([figure, JSON.parse(script.textContent ?? "") as Stored]);
   }
-  const axes = found.flatMap(([, data]) => [data.x, ...data.panels.map((panel) => panel.y)]);
+  const figures = found.flatMap(([, stored]) => figuresOf(stored));
+  const axes = figures.flatMap((figure) => [figure.x, ...figure.panels.map((panel) => panel.y)]);
   const has = (quantity: string) => axes.some((axis) => axis.quantity === quantity);
   const bar = document.getElementById("units");
   if (bar) {
@@ -46,14 +83,8 @@ function begin(): void {
     (all) => {
       for (const entry of all.filter((entry) => entry.isIntersecting)) {
         observer.unobserve(entry.target);
-        const data = found.find(([figure]) => figure === entry.target)?.[1];
-        const picture = entry.target.querySelector(".plot > svg");
-        const place = document.createElement("div");
-        place.className = "live";
-        if (!data) continue;
-        entry.target.classList.add("interactive");
-        entry.target.prepend(place);
-        new Figure(place, data, choice, picture);
+        const stored = found.find(([figure]) => figure === entry.target)?.[1];
+        if (stored) enliven(entry.target, stored);
       }
     },
     { rootMargin: "600px" },

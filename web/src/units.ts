@@ -13,10 +13,12 @@ type Listener = () => void;
 /** The units of all figures of a page. */
 export class UnitChoice {
   readonly units: Units = { frequency: "rad/s", magnitude: "dB", phase: "continuous" };
-  private readonly listeners: Listener[] = [];
+  private readonly listeners = new Set<Listener>();
 
-  listen(listener: Listener): void {
-    this.listeners.push(listener);
+  /** Calls `listener` after every choice, until the function that is given is called. */
+  listen(listener: Listener): () => void {
+    this.listeners.add(listener);
+    return () => this.listeners.delete(listener);
   }
 
   choose<K extends keyof Units>(key: K, value: Units[K]): void {
@@ -113,6 +115,7 @@ export function unitOf(label: string): string {
 export function digits(value: number): string {
   if (value === 0) return "0";
   const size = Math.abs(value);
-  const text = size >= 1e5 || size < 1e-3 ? value.toExponential(3) : String(Number(value.toPrecision(4)));
-  return text.replace("-", "−").replace("e+", "e");
+  if (size < 1e5 && size >= 1e-3) return String(Number(value.toPrecision(4))).replace("-", "−");
+  const [mantissa, power] = value.toExponential(3).split("e");
+  return `${Number(mantissa)}e${Number(power)}`.replaceAll("-", "−");
 }

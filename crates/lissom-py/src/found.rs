@@ -6,7 +6,7 @@ use std::sync::Arc;
 use lissom::io::{CampaignFile, PayloadFile, write};
 use lissom::{EquivalentInput, Found, Payloads, predict_payload};
 use lissom_views::known_arm::checked;
-use lissom_views::{ProgramHints, Reference, report_page, result_figures};
+use lissom_views::{ProgramHints, Reference, own_logs, report_page, result_figures};
 use pyo3::prelude::*;
 use pyo3::types::PyBytes;
 
@@ -43,7 +43,9 @@ impl NativeFound {
             let (campaign, id) = (&self.file.campaign, self.found.identified());
             let described = checked(id, reference.as_ref());
             let (reference, described) = (reference.as_ref(), described.as_ref());
-            report_page::page(title, campaign, id, reference, described, ProgramHints::NONE)
+            let own = own_logs(campaign, id);
+            let (own, hints) = (own.as_ref(), ProgramHints::NONE);
+            report_page::page(title, campaign, id, own, reference, described, hints)
         };
         Ok(py.detach(page))
     }

@@ -149,13 +149,13 @@ impl BodePlot {
     }
 
     /// What an interactive drawing of one of the two panels needs.
-    fn panel_data(&self, y: Axis, marks: &[(&Series, Vec<Mark>)]) -> PanelData {
+    fn panel_data(y: Axis, marks: &[(&Series, Vec<Mark>)], points: usize) -> PanelData {
         let style = |series: &Series| match series.style {
             Style::Line => TraceStyle::Line,
             Style::Points | Style::PointsWithBars => TraceStyle::Points,
         };
         let traces =
-            marks.iter().map(|(s, marks)| TraceData::of(&s.label, s.role, style(s), marks));
+            marks.iter().map(|(s, marks)| TraceData::of(&s.label, s.role, style(s), marks, points));
         PanelData {
             y: AxisData::of(&y),
             traces: traces.collect(),
@@ -272,7 +272,7 @@ impl BodePlot {
 impl Sealed for BodePlot {}
 
 impl Figure for BodePlot {
-    fn data(&self) -> Result<FigureData, FigureError> {
+    fn data(&self, points: usize) -> Result<FigureData, FigureError> {
         let (prepared, skipped) = self.prepare()?;
         let per_unit = if self.frequency_axis == FrequencyAxis::Hertz { TAU } else { 1.0 };
         let of = |marks: &dyn Fn(&Prepared<'_>) -> Vec<Mark>| {
@@ -293,8 +293,8 @@ impl Figure for BodePlot {
             subtitle: self.subtitle.clone(),
             x: AxisData::of(&frequency),
             panels: vec![
-                self.panel_data(decibels, &magnitude),
-                self.panel_data(degrees, &of(&|p| p.phase.clone())),
+                Self::panel_data(decibels, &magnitude, points),
+                Self::panel_data(degrees, &of(&|p| p.phase.clone()), points),
             ],
             skipped,
         })

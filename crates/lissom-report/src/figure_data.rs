@@ -3,13 +3,13 @@
 use serde::Serialize;
 
 use crate::marks::Mark;
+use crate::packed::Packed;
 use crate::palette::Role;
 use crate::scale::Scale;
 use crate::trace::{Axis, Band, Quantity, Region, TraceStyle};
 
-/// Most points of a line; beyond, of the points in one of so many equal parts of the axis the first, the extremes and the last
-/// are kept.
-const POINTS_MOST: usize = 2000;
+/// Most points of a line of a figure on its own.
+pub(crate) const POINTS_MOST: usize = 2000;
 /// Digits of numbers after the first.
 const DIGITS: usize = 6;
 
@@ -64,9 +64,14 @@ pub struct TraceData {
     /// `line`, `dashes`, `steps`, `points` or `columns`.
     pub style: &'static str,
     /// The abscissae.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
     pub x: Vec<f64>,
     /// The ordinates; a line stops where one is missing.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
     pub y: Vec<Option<f64>>,
+    /// The points of a sampled signal, in place of `x` and `y`.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub packed: Option<Packed>,
     /// The lower ends of error bars.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub low: Vec<Option<f64>>,
@@ -142,10 +147,26 @@ impl RegionData {
 }
 
 impl TraceData {
-    /// A trace of marks.
-    pub(crate) fn of(label: &str, role: Role, style: TraceStyle, marks: &[Mark]) -> Self {
+    /// A trace of marks. Lines have at most about so many points.
+    pub(crate) fn of(
+        label: &str,
+        role: Role,
+        style: TraceStyle,
+        marks: &[Mark],
+        most: usize,
+    ) -> Self {
         let is_line = matches!(style, TraceStyle::Line | TraceStyle::Dashes | TraceStyle::Steps);
-        let kept = if is_line { thinned(marks) } else { marks.to_vec() };
+        if let Some((packed, whole)) = is_line.then(|| Packed::of(marks, most)).flatten() {
+            return Self {
+                label: label.to_owned(),
+                role: role.name(),
+                style: style.name(),
+                packed: Some(packed),
+                points: (!whole).then_some(marks.len()),
+                ..Self::default()
+            };
+        }
+        let kept = if is_line { thinned(marks, most) } else { marks.to_vec() };
         let mut trace = Self {
             label: label.to_owned(),
             role: role.name(),
@@ -183,14 +204,14 @@ impl TraceData {
 }
 
 /// The marks of a line that show it: all of a short one, or one that does not go from left to right.
-fn thinned(marks: &[Mark]) -> Vec<Mark> {
+fn thinned(marks: &[Mark], most: usize) -> Vec<Mark> {
     let rises = marks.is_sorted_by(|a, b| a.x <= b.x);
     let (Some(first), Some(last)) = (marks.first(), marks.last()) else { return Vec::new() };
-    if marks.len() <= POINTS_MOST || !rises || last.x <= first.x {
+    if marks.len() <= most || !rises || last.x <= first.x {
         return marks.to_vec();
     }
     // Four points of each part.
-    let parts = (POINTS_MOST / 4) as f64;
+    let parts = (most / 4).max(1) as f64;
     let part = |mark: &Mark| (parts * (mark.x - first.x) / (last.x - first.x)).floor();
     let mut kept = Vec::new();
     for run in marks.chunk_by(|a, b| (part(a) - part(b)).abs() < 0.5 && !b.after_gap) {
@@ -265,12 +286,13 @@ mod tests {
     #[test]
     fn long_lines_keep_their_extremes_and_say_how_long_they_were() {
         let marks: Vec<Mark> = (0..100_000)
-            .map(|k| mark(f64::from(k) * 1e-3, if k == 51_234 { 9.0 } else { f64::from(k % 7) }))
+            .map(|k| (f64::from(k), if k == 51_234 { 9.0 } else { f64::from(k % 7) }))
+            .map(|(k, y)| mark(k * k, y))
             .collect();
-        let line = TraceData::of("a", Role::Raw, TraceStyle::Line, &marks);
+        let line = TraceData::of("a", Role::Raw, TraceStyle::Line, &marks, POINTS_MOST);
         assert!(line.x.len() <= POINTS_MOST && line.points == Some(100_000), "{}", line.x.len());
         assert!(line.y.contains(&Some(9.0)));
-        let points = TraceData::of("a", Role::Raw, TraceStyle::Points, &marks);
+        let points = TraceData::of("a", Role::Raw, TraceStyle::Points, &marks, POINTS_MOST);
         assert_eq!((points.x.len(), points.points), (100_000, None));
     }
 
@@ -279,11 +301,11 @@ mod tests {
         let mut marks = [mark(0.0, 1.0), mark(1.0, 2.0), mark(2.0, 1.0 / 3.0)];
         marks[1].after_gap = true;
         marks[2].flagged = true;
-        let line = TraceData::of("", Role::Other(5), TraceStyle::Line, &marks);
+        let line = TraceData::of("", Role::Other(5), TraceStyle::Line, &marks, 9);
         assert_eq!(line.y, [Some(1.0), None, Some(2.0), Some(0.333_333_3)]);
         assert_eq!((line.flagged, line.role.as_str(), line.low.len()), (vec![3], "other1", 0));
         marks[0].bar = Some((0.5, f64::INFINITY));
-        let points = TraceData::of("", Role::Raw, TraceStyle::PointsWithBars, &marks);
+        let points = TraceData::of("", Role::Raw, TraceStyle::PointsWithBars, &marks, 9);
         assert_eq!(points.low, [Some(0.5), None, None]);
         assert_eq!(points.high, [None, None, None]);
     }

@@ -18,12 +18,12 @@ pub trait Figure: Sealed {
     /// point is drawable, [`FigureError::Range`] when an axis is given a range it cannot have.
     fn to_svg(&self) -> Result<String, FigureError>;
 
-    /// What an interactive drawing of the figure needs.
+    /// What an interactive drawing of the figure needs. Lines have at most about `points` points.
     ///
     /// # Errors
     ///
     /// [`FigureError::Length`] and [`FigureError::NothingToDraw`] as [`to_svg`](Self::to_svg).
-    fn data(&self) -> Result<FigureData, FigureError>;
+    fn data(&self, points: usize) -> Result<FigureData, FigureError>;
 
     /// Draws the figure on white, `scale` pixels to one SVG unit, and returns the bytes of a PNG file.
     ///

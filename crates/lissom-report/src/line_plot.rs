@@ -305,6 +305,7 @@ pub(crate) fn sheet_data(
     title: &str,
     subtitle: Option<&str>,
     plots: &[&LinePlot],
+    points: usize,
 ) -> Result<FigureData, FigureError> {
     let (mut panels, mut all) = (Vec::new(), 0);
     for plot in plots {
@@ -315,7 +316,7 @@ pub(crate) fn sheet_data(
         panels.push(PanelData {
             y: AxisData::of(&plot.y),
             traces: traces
-                .map(|(t, marks)| TraceData::of(&t.label, t.role, t.style, marks))
+                .map(|(t, marks)| TraceData::of(&t.label, t.role, t.style, marks, points))
                 .collect(),
             bands: plot.drawable_bands().map(BandData::of).collect(),
             regions: plot.drawable_regions().map(RegionData::of).collect(),
@@ -336,8 +337,8 @@ pub(crate) fn sheet_data(
 impl Sealed for LinePlot {}
 
 impl Figure for LinePlot {
-    fn data(&self) -> Result<FigureData, FigureError> {
-        sheet_data(&self.title, self.subtitle.as_deref(), &[self])
+    fn data(&self, points: usize) -> Result<FigureData, FigureError> {
+        sheet_data(&self.title, self.subtitle.as_deref(), &[self], points)
     }
 
     fn to_svg(&self) -> Result<String, FigureError> {

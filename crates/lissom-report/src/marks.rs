@@ -30,13 +30,13 @@ pub(crate) fn with_bars(marks: &[&Mark]) -> Option<(f64, f64)> {
     Some((low.min(bottom).max(low - stretch), high.max(top).min(high + stretch)))
 }
 
-/// The same picture of a long path with fewer points: of those in one half pixel column the first, extremes and last are kept.
+/// The same picture of a long path with fewer points: of those in one pixel column the first, extremes and last are kept.
 pub(crate) fn thinned(path: &[(f64, f64)]) -> Vec<(f64, f64)> {
     const SHORT: usize = 1500;
     if path.len() <= SHORT {
         return path.to_vec();
     }
-    let column = |x: f64| (2.0 * x).round();
+    let column = f64::round;
     let mut kept = Vec::new();
     for run in path.chunk_by(|a, b| (column(a.0) - column(b.0)).abs() < 0.5) {
         let place = |best: fn(f64, f64) -> bool| {
@@ -81,7 +81,7 @@ mod tests {
             .map(|k| (f64::from(k) / 200.0, if k == 51_234 { 9.0 } else { f64::from(k % 7) }))
             .collect();
         let thin = thinned(&path);
-        assert!(thin.len() < 4100, "{}", thin.len());
+        assert!(thin.len() < 2100, "{}", thin.len());
         assert!(thin.iter().any(|p| p.1 > 8.0));
         assert_eq!((thin.first(), thin.last()), (path.first(), path.last()));
     }

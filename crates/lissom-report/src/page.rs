@@ -3,7 +3,11 @@
 use std::collections::HashSet;
 use std::fmt::Write as _;
 
+use serde::Serialize;
+
 use crate::Figure;
+use crate::figure_data::{FigureData, POINTS_MOST};
+use crate::forest::ForestAxis;
 use crate::html::escape;
 use crate::page_parts::{Cells, Finding, KeyFigure, Table};
 use lissom_text::{interval, with_uncertainty};
@@ -11,6 +15,11 @@ use lissom_text::{interval, with_uncertainty};
 const STYLE: &str = concat!(include_str!("page/uplot.css"), include_str!("page/page.css"));
 /// Makes figures interactive. Built from `web/src/page.ts`.
 const SCRIPT: &str = include_str!("page/page.js");
+/// Points of all lines of a gallery together.
+const GALLERY_POINTS: usize = 150_000;
+/// Points of one of them, at least and at most.
+const GALLERY_LEAST: usize = 300;
+const GALLERY_MOST: usize = 4000;
 /// SHA-256 of the script, Base64: the only one that the page may run.
 const SCRIPT_HASH: &str = include_str!("page/page.js.sha256");
 
@@ -93,50 +102,79 @@ impl Page {
     /// A table of estimates, each rounded to two digits of its standard error.
     #[must_use]
     pub fn key_figures(self, caption: &str, figures: &[KeyFigure]) -> Self {
+        let axis = ForestAxis::of(figures);
         let noted = figures.iter().any(|f| !f.note.is_empty());
+        let doubted = figures.iter().any(|f| !f.doubted_by.is_empty());
         let mut columns = vec![
             ("quantity", Cells::Text),
             ("value ± standard error", Cells::Numbers),
             ("95 % interval", Cells::Numbers),
             ("unit", Cells::Text),
         ];
+        let scale = axis.map(|axis| format!("± {} %", axis.percent()));
+        columns.extend(scale.as_deref().map(|scale| (scale, Cells::Text)));
         columns.extend(noted.then_some(("note", Cells::Text)));
+        columns.extend(doubted.then_some(("doubtful", Cells::Text)));
         let rows = figures.iter().map(|f| {
             let value = f.value.filter(|v| v.is_finite());
             let std = f.std.unwrap_or(f64::NAN);
             let ci95 = Option::zip(value, f.ci95).map(|(v, ci95)| interval(ci95, v, std));
-            vec![
-                f.name.clone(),
-                value.map_or_else(|| "refused".to_owned(), |v| with_uncertainty(v, std)),
-                ci95.unwrap_or_else(|| "—".to_owned()),
-                f.unit.clone(),
-                f.note.clone(),
-            ]
+            let mut cells = vec![
+                escape(&f.name),
+                value.map_or_else(|| "refused".to_owned(), |v| escape(&with_uncertainty(v, std))),
+                ci95.map_or_else(|| "—".to_owned(), |text| escape(&text)),
+                escape(&f.unit),
+            ];
+            cells.extend(axis.map(|axis| axis.row(f).unwrap_or_default()));
+            cells.extend(noted.then(|| escape(&f.note)));
+            cells.extend(doubted.then(|| links(&f.doubted_by)));
+            cells
         });
-        let rows = rows.collect();
-        let table = Table { rows, ..Table::new(caption, &columns) };
-        self.put(&table_html(&table, " class=\"stack\""))
+        let rows: Vec<Vec<String>> = rows.collect();
+        let table = Table::new(caption, &columns);
+        self.put(&table_html(&table, &rows, " class=\"stack\""))
     }
 
     /// A table.
     #[must_use]
     pub fn table(self, table: &Table) -> Self {
-        self.put(&table_html(table, ""))
+        let escaped = |row: &Vec<String>| row.iter().map(|cell| escape(cell)).collect();
+        let rows: Vec<Vec<String>> = table.rows.iter().map(escaped).collect();
+        self.put(&table_html(table, &rows, ""))
     }
 
     /// A figure with its caption; if it cannot be drawn, the page shows the reason instead.
     #[must_use]
     pub fn figure<F: Figure + ?Sized>(mut self, figure: &F, caption: &str) -> Self {
-        let picture = figure.to_svg().unwrap_or_else(|error| {
-            format!("<p class=\"missing\">Not drawn: {}.</p>", escape(&error.to_string()))
-        });
-        let data = figure.data().ok().and_then(|data| serde_json::to_string(&data).ok());
-        let data = data.map_or_else(String::new, |json| {
-            // JSON in which no tag, reference or end of CDATA can stand.
-            let json = json.replace('&', "\\u0026").replace('<', "\\u003c").replace('>', "\\u003e");
-            format!("<script type=\"application/json\" class=\"figure-data\">{json}</script>")
-        });
+        let picture = picture(figure);
+        let data = figure.data(POINTS_MOST).map_or_else(|_| String::new(), |data| data_html(&data));
         self.has_data |= !data.is_empty();
+        self.put(&format!(
+            "<figure><div class=\"wide plot\">{picture}</div>{data}<figcaption>{}</figcaption></figure>",
+            escape(caption)
+        ))
+    }
+
+    /// Figures of one kind, each with a name, of which the reader chooses one; the first is shown. Long lines are thinned so
+    /// that the page stays small.
+    #[must_use]
+    pub fn gallery<F: Figure>(
+        mut self,
+        choose: &str,
+        figures: &[(String, F)],
+        caption: &str,
+    ) -> Self {
+        let Some((_, first)) = figures.first() else { return self };
+        let few = figures.iter().filter_map(|(_, figure)| figure.data(2).ok());
+        let traces: usize = few.flat_map(|data| data.panels).map(|panel| panel.traces.len()).sum();
+        let points = (GALLERY_POINTS / traces.max(1)).clamp(GALLERY_LEAST, GALLERY_MOST);
+        let all: Vec<Choice<'_>> = figures
+            .iter()
+            .filter_map(|(name, figure)| Some(Choice { name, figure: figure.data(points).ok()? }))
+            .collect();
+        let data = if all.is_empty() { String::new() } else { data_html(&Choices { choose, all }) };
+        self.has_data |= !data.is_empty();
+        let picture = picture(first);
         self.put(&format!(
             "<figure><div class=\"wide plot\">{picture}</div>{data}<figcaption>{}</figcaption></figure>",
             escape(caption)
@@ -152,11 +190,18 @@ impl Page {
         let mut sorted: Vec<&Finding> = findings.iter().collect();
         sorted.sort_by_key(|f| std::cmp::Reverse(f.severity));
         let mut html = "<ul class=\"findings\">\n".to_owned();
+        let mut placed = HashSet::new();
         for finding in sorted {
             let word = finding.severity.word();
+            let anchor = finding_anchor(&finding.code);
+            let place = if placed.insert(anchor.clone()) {
+                format!(" id=\"{anchor}\"")
+            } else {
+                String::new()
+            };
             let _ = write!(
                 html,
-                "<li class=\"{word}\"><span class=\"badge\">{word}</span> <code>{}</code>",
+                "<li{place} class=\"{word}\"><span class=\"badge\">{word}</span> <code>{}</code>",
                 escape(&finding.code)
             );
             if let Some(run) = &finding.run {
@@ -173,6 +218,28 @@ impl Page {
                     .map(|key| format!("<code>{}</code>", escape(key)))
                     .collect();
                 let _ = write!(html, "<p class=\"affects\">Affects {}</p>", keys.join(", "));
+            }
+            html.push_str("</li>\n");
+        }
+        html.push_str("</ul>");
+        self.put(&html)
+    }
+
+    /// The findings that matter most, each in a line with what to do, with links to all of them.
+    #[must_use]
+    pub fn main_findings(self, findings: &[Finding]) -> Self {
+        let mut html = "<ul class=\"main-findings\">\n".to_owned();
+        for finding in findings {
+            let (word, anchor) = (finding.severity.word(), finding_anchor(&finding.code));
+            let _ = write!(
+                html,
+                "<li class=\"{word}\"><span class=\"badge\">{word}</span> {}{} <a href=\"#{anchor}\">{}</a>",
+                finding.run.as_ref().map_or_else(String::new, |run| format!("{}: ", escape(run))),
+                escape(&finding.message),
+                escape(&finding.code)
+            );
+            if let Some(hint) = &finding.hint {
+                let _ = write!(html, "<p class=\"hint\"><b>What to do:</b> {}</p>", escape(hint));
             }
             html.push_str("</li>\n");
         }
@@ -232,8 +299,49 @@ impl Page {
     }
 }
 
-/// A table; `attributes` go to its element.
-fn table_html(table: &Table, attributes: &str) -> String {
+/// Figures of which the reader chooses one.
+#[derive(Serialize)]
+struct Choices<'a> {
+    choose: &'a str,
+    all: Vec<Choice<'a>>,
+}
+
+/// One of them.
+#[derive(Serialize)]
+struct Choice<'a> {
+    name: &'a str,
+    figure: FigureData,
+}
+
+/// A figure as SVG, or why it cannot be drawn.
+fn picture<F: Figure + ?Sized>(figure: &F) -> String {
+    figure.to_svg().unwrap_or_else(|error| {
+        format!("<p class=\"missing\">Not drawn: {}.</p>", escape(&error.to_string()))
+    })
+}
+
+/// Data for the script of the page: JSON in which no tag, reference or end of CDATA can stand.
+fn data_html(data: &impl Serialize) -> String {
+    let Ok(json) = serde_json::to_string(data) else { return String::new() };
+    let json = json.replace('&', "\\u0026").replace('<', "\\u003c").replace('>', "\\u003e");
+    format!("<script type=\"application/json\" class=\"figure-data\">{json}</script>")
+}
+
+/// The place of a finding on the page.
+fn finding_anchor(code: &str) -> String {
+    let plain = code.chars().map(|c| if c.is_ascii_alphanumeric() { c } else { '-' });
+    format!("finding-{}", plain.collect::<String>())
+}
+
+/// Findings with links to their places.
+fn links(codes: &[String]) -> String {
+    let link =
+        |code: &String| format!("<a href=\"#{}\">{}</a>", finding_anchor(code), escape(code));
+    codes.iter().map(link).collect::<Vec<_>>().join(", ")
+}
+
+/// A table with rows of cells that are HTML; `attributes` go to its element.
+fn table_html(table: &Table, rows: &[Vec<String>], attributes: &str) -> String {
     let class = |cells: &Cells| {
         if *cells == Cells::Numbers { " class=\"n\"" } else { "" }
     };
@@ -246,10 +354,10 @@ fn table_html(table: &Table, attributes: &str) -> String {
         let _ = write!(html, "<th scope=\"col\"{}>{}</th>", class(cells), escape(heading));
     }
     html.push_str("</tr></thead>\n<tbody>");
-    for row in &table.rows {
+    for row in rows {
         html.push_str("<tr>");
         for (k, (heading, cells)) in table.columns.iter().enumerate() {
-            let text = escape(row.get(k).map_or("", String::as_str));
+            let text = row.get(k).map_or("", String::as_str);
             let (class, label) = (class(cells), escape(heading));
             let _ = write!(html, "<td{class} data-label=\"{label}\">{text}</td>");
         }

@@ -72,6 +72,10 @@ pub struct KeyFigure {
     pub ci95: Option<[f64; 2]>,
     /// Its unit.
     pub unit: String,
+    /// A value that is known beforehand.
+    pub known: Option<f64>,
+    /// Codes of the findings that make it doubtful; their places on the page are those of [`Page::findings`](crate::Page::findings).
+    pub doubted_by: Vec<String>,
     /// A remark, for example why it is refused.
     pub note: String,
 }

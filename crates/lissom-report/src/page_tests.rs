@@ -27,7 +27,8 @@ fn full() -> String {
         std: Some(0.0012),
         ci95: Some([0.1296, 0.1344]),
         unit: "A".to_owned(),
-        note: String::new(),
+        doubted_by: vec![HOSTILE.to_owned()],
+        ..KeyFigure::default()
     };
     let refused = KeyFigure {
         name: "viscous".to_owned(),

@@ -69,9 +69,9 @@ impl StackedPlot {
 impl Sealed for StackedPlot {}
 
 impl Figure for StackedPlot {
-    fn data(&self) -> Result<FigureData, FigureError> {
+    fn data(&self, points: usize) -> Result<FigureData, FigureError> {
         let plots: Vec<&LinePlot> = self.plots.iter().collect();
-        sheet_data(&self.title, self.subtitle.as_deref(), &plots)
+        sheet_data(&self.title, self.subtitle.as_deref(), &plots, points)
     }
 
     fn to_svg(&self) -> Result<String, FigureError> {

@@ -23,7 +23,7 @@
 //! # let campaign: &Campaign = logs.as_ref();
 //! let found = Identify::new(campaign).effort(Effort::Quick).run()?;
 //! let id = found.identified();
-//! let html = report_page::page("My axis", campaign, id, None, None, ProgramHints::NONE);
+//! let html = report_page::page("My axis", campaign, id, None, None, None, ProgramHints::NONE);
 //! assert!(html.contains("Coulomb friction"));
 //! let figures = result_figures(&campaign.channels, id, None);
 //! assert_eq!(figures[0].name, "bode-motor");
@@ -42,6 +42,7 @@ pub mod fleet_page;
 pub mod friction_curve;
 pub mod known_arm;
 mod named_figure;
+mod own_logs;
 pub mod parameter_rows;
 pub mod payload_plot;
 mod program_hints;
@@ -56,6 +57,7 @@ pub mod velocity_friction;
 
 pub use known_arm::Reference;
 pub use named_figure::NamedFigure;
+pub use own_logs::own_logs;
 pub use parameter_rows::parameter_rows;
 pub use program_hints::ProgramHints;
 pub use result_figures::result_figures;

@@ -5,6 +5,14 @@ use lissom_io::UnitNames;
 
 use crate::known_arm::Reference;
 
+const COULOMB: &str = "friction.coulomb";
+const OFFSET: &str = "friction.offset";
+const VISCOUS: &str = "friction.viscous";
+const INERTIA: &str = "drive.inertia";
+const GRAVITY: &str = "gravity";
+const COUPLING: &str = "beam.coupling";
+const MODES: &str = "beam.modes";
+
 /// Significant digits of parameters that are known beforehand.
 pub const KNOWN_DIGITS: usize = 6;
 /// An offset within this many of its standard errors is zero: both directions then have the same friction.
@@ -15,6 +23,8 @@ const SAME_BY_DIRECTION: f64 = 2.0;
 pub struct ParameterRow {
     /// Name of the parameter; indented if it belongs to the row above.
     pub name: String,
+    /// Its key in `result.json`, without the suffix of the unit: what findings affect.
+    pub key: &'static str,
     /// The estimate; `None` if it is refused.
     pub estimate: Option<Estimate>,
     /// Its unit.
@@ -35,6 +45,7 @@ pub fn classical_rows(
     let command = || names.command_unit().to_owned();
     let row = |name: &str, estimate, unit: String| ParameterRow {
         name: name.to_owned(),
+        key: "methods.constant_velocity",
         estimate,
         unit,
         known: None,
@@ -62,8 +73,8 @@ pub fn parameter_rows(
     let constant = id.torque_per_command.unwrap_or(1.0);
     let torque = || names.torque_unit().to_owned();
     let mut rows = Vec::new();
-    let mut add = |name: &str, estimate, unit: String, known: Option<f64>| {
-        rows.push(ParameterRow { name: name.to_owned(), estimate, unit, known });
+    let mut add = |key: &'static str, name: &str, estimate, unit: String, known: Option<f64>| {
+        rows.push(ParameterRow { name: name.to_owned(), key, estimate, unit, known });
     };
     let mean = reference.map(|r| 0.5 * (r.coulomb_nm.0 + r.coulomb_nm.1));
     // With another friction near standstill, this is the part that does not depend on speed.
@@ -75,77 +86,89 @@ pub fn parameter_rows(
     if names.torque_known {
         let in_command = f.coulomb.map(|e| e.scaled(1.0 / constant));
         let unit = names.command_unit().to_owned();
-        add(coulomb, in_command, unit, mean.map(|m| m / constant));
-        add("  as a torque", f.coulomb, torque(), mean);
+        add(COULOMB, coulomb, in_command, unit, mean.map(|m| m / constant));
+        add(COULOMB, "  as a torque", f.coulomb, torque(), mean);
     } else {
-        add(coulomb, f.coulomb, torque(), mean);
+        add(COULOMB, coulomb, f.coulomb, torque(), mean);
     }
     if f.coulomb.is_none() {
         // One direction only: friction and a constant load are one number.
         for (name, sum) in [("forward", f.forward), ("backward", f.backward)] {
             if sum.is_some() {
-                add(&format!("  friction plus load, {name}"), sum, torque(), None);
+                add(COULOMB, &format!("  friction plus load, {name}"), sum, torque(), None);
             }
         }
     } else if f.forward.is_some() {
         let same = f.offset.is_some_and(|o| o.value.abs() < SAME_BY_DIRECTION * o.std);
         if !same || reference.is_some() {
-            add("  forward", f.forward, torque(), reference.map(|r| r.coulomb_nm.0));
-            add("  backward", f.backward, torque(), reference.map(|r| r.coulomb_nm.1));
+            add(COULOMB, "  forward", f.forward, torque(), reference.map(|r| r.coulomb_nm.0));
+            add(COULOMB, "  backward", f.backward, torque(), reference.map(|r| r.coulomb_nm.1));
         }
         let offset = reference.map(|r| 0.5 * (r.coulomb_nm.0 - r.coulomb_nm.1));
-        add("  offset, (forward − backward)/2", f.offset, torque(), offset);
+        add(OFFSET, "  offset, (forward − backward)/2", f.offset, torque(), offset);
     }
     let viscous = reference.map(|r| r.viscous_nm_s_per_rad);
-    add("viscous friction", f.viscous, names.viscous_unit(), viscous);
+    add(VISCOUS, "viscous friction", f.viscous, names.viscous_unit(), viscous);
     if let Some((forward, backward)) = f.viscous_by_direction {
-        add("  forward", Some(forward), names.viscous_unit(), None);
-        add("  backward", Some(backward), names.viscous_unit(), None);
+        add(VISCOUS, "  forward", Some(forward), names.viscous_unit(), None);
+        add(VISCOUS, "  backward", Some(backward), names.viscous_unit(), None);
     }
     if let Some(near) = f.near_rest {
         if let Some(at_rest) = near.static_friction() {
-            add("static friction", Some(at_rest), torque(), None);
+            add(COULOMB, "static friction", Some(at_rest), torque(), None);
         }
         let (change, size) =
             if near.torque.value < 0.0 { ("lower", -1.0) } else { ("higher", 1.0) };
         let name = format!("friction near standstill {change} by");
-        add(&name, Some(near.torque.scaled(size)), torque(), None);
-        add("  below a speed of about", Some(near.speed), format!("{}/s", names.angle()), None);
+        add(COULOMB, &name, Some(near.torque.scaled(size)), torque(), None);
+        add(
+            COULOMB,
+            "  below a speed of about",
+            Some(near.speed),
+            format!("{}/s", names.angle()),
+            None,
+        );
     }
     if f.with_load.is_some() {
-        add("friction per gravity torque, μ", f.with_load, "1".to_owned(), None);
+        add(COULOMB, "friction per gravity torque, μ", f.with_load, "1".to_owned(), None);
     }
     for ripple in &f.ripples {
-        add("friction ripple", Some(ripple.torque), torque(), None);
-        add("  period", Some(ripple.period()), names.angle().to_owned(), None);
+        add(COULOMB, "friction ripple", Some(ripple.torque), torque(), None);
+        add(COULOMB, "  period", Some(ripple.period()), names.angle().to_owned(), None);
     }
     let inertia = reference.map(|r| r.inertia_kg_m2);
-    add(names.inertia_name(), id.inertia, names.inertia_unit(), inertia);
+    add(INERTIA, names.inertia_name(), id.inertia, names.inertia_unit(), inertia);
     if let Some(gravity) = &id.gravity {
         let known = reference.and_then(|r| r.gravity);
         let mgl = known.map(|load| load.amplitude_nm());
-        add("gravity, m·g·l", Some(gravity.amplitude()), torque(), mgl);
+        add(GRAVITY, "gravity, m·g·l", Some(gravity.amplitude()), torque(), mgl);
         let phase = known.map(|load| load.phase_rad().to_degrees());
         let degrees = gravity.phase_rad().scaled(1.0_f64.to_degrees());
-        add("  phase φ of m·g·l·sin(θ + φ)", Some(degrees), "deg".to_owned(), phase);
+        add(GRAVITY, "  phase φ of m·g·l·sin(θ + φ)", Some(degrees), "deg".to_owned(), phase);
         if let Some(constant) = id.torque_constant {
             let unit = format!("N·m/{}", names.command_unit());
-            add("  torque constant from m·g·l", Some(constant), unit, None);
+            add(GRAVITY, "  torque constant from m·g·l", Some(constant), unit, None);
         }
     }
     if !id.beam.coupling_by_tip.is_empty() || id.beam.coupling.is_some() {
         let known = arm.map(|a| a.dynamics().coupling_motor);
-        add("coupling to the beam", id.beam.coupling, names.coupling_unit(), known);
+        add(COUPLING, "coupling to the beam", id.beam.coupling, names.coupling_unit(), known);
     }
     let natural = arm.map_or(Vec::new(), |a| a.beam().natural_frequencies_rad_s());
     for (k, mode) in id.beam.modes.iter().enumerate() {
         let name = format!("mode {} (motor clamped)", k + 1);
         let frequency = mode.natural_frequency_rad_s;
         let known = natural.get(k).copied();
-        add(&name, Some(frequency), "rad/s".to_owned(), known);
+        add(MODES, &name, Some(frequency), "rad/s".to_owned(), known);
         let hertz = |v: f64| v / std::f64::consts::TAU;
-        add("  in Hz", Some(frequency.scaled(hertz(1.0))), "Hz".to_owned(), known.map(hertz));
-        add("  damping ratio", mode.given_damping_ratio(), "–".to_owned(), None);
+        add(
+            MODES,
+            "  in Hz",
+            Some(frequency.scaled(hertz(1.0))),
+            "Hz".to_owned(),
+            known.map(hertz),
+        );
+        add(MODES, "  damping ratio", mode.given_damping_ratio(), "–".to_owned(), None);
     }
     rows
 }

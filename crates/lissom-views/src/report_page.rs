@@ -1,10 +1,11 @@
 //! The report page: one self-contained HTML document.
 
-use lissom::identify::{Finding, GeometryCheck, Identified, Severity};
+use lissom::identify::{Finding, GeometryCheck, Identified, Severity, Validation};
 use lissom::record::Campaign;
 use lissom_io::UnitNames;
 use lissom_report::{
     Finding as ReportFinding, KeyFigure, Page, Severity as ReportSeverity, significant,
+    with_uncertainty,
 };
 
 use crate::digits::counted;
@@ -13,36 +14,43 @@ use crate::parameter_rows::{KNOWN_DIGITS, ParameterRow, classical_rows, paramete
 use crate::program_hints::ProgramHints;
 use crate::run_table::run_table;
 use crate::slip_windows::window_table;
+use crate::validation_plots::correlation_figures;
 use crate::velocity_friction::{friction_plot, stretch_table};
 use crate::{
-    arm_check, bode_plots, equivalent_section, friction_curve, separability_section, third_harmonic,
+    arm_check, bode_plots, equivalent_section, friction_curve, own_logs, separability_section,
+    third_harmonic,
 };
 
-/// The page as HTML. `reference` adds the parameters of a known arm, `described` the comparison with its dimensions.
+/// Most parameters in the summary.
+const MAIN_PARAMETERS: usize = 6;
+/// Most findings in the summary.
+const MAIN_FINDINGS: usize = 3;
+
+/// The page as HTML. `own` is the prediction of the campaign itself, see [`own_logs`](crate::own_logs). `reference` adds the parameters of a known arm, `described` the comparison with its dimensions.
 /// `hints` names what helps in the program that makes the page.
 pub fn page(
     title: &str,
     campaign: &Campaign,
     id: &Identified,
+    own: Option<&Validation>,
     reference: Option<&Reference>,
     described: Option<&GeometryCheck>,
     hints: ProgramHints,
 ) -> String {
     let names = UnitNames::new(&campaign.channels);
-    let refusals = id.findings.iter().filter(|f| f.severity() == Severity::Refusal).count();
-    let warnings = id.findings.iter().filter(|f| f.severity() == Severity::Warning).count();
-    let summary = format!(
-        "{}; {}, {}. Each parameter is given with its standard error and its 95 % interval. The section \
-         Findings lists what the data could not determine.",
-        counted(id.runs.len(), "run"),
-        counted(warnings, "warning"),
-        counted(refusals, "refusal")
-    );
-    let mut page = Page::new(title).summary(&summary).heading("Parameters").key_figures(
+    let rows = parameter_rows(names, id, reference);
+    let findings: Vec<ReportFinding> = id.findings.iter().map(|f| finding(f, hints)).collect();
+    let main: Vec<ReportFinding> = main_findings(&findings);
+    let mut page = Page::new(title).summary(&in_words(id, &rows));
+    if !main.is_empty() {
+        page = page.main_findings(&main);
+    }
+    page = page.contents().heading("Parameters").key_figures(
         "Drive and beam; 0.1320(12) means 0.1320 ± 0.0012",
-        &key_figures(names, id, reference),
+        &key_figures(id, rows, reference),
     );
     page = separability_section::section(page, names, id);
+    page = motion_section(page, campaign, id, own);
     let bode = bode_plots::bode_plots(&campaign.channels, names, id, reference);
     if !bode.is_empty() {
         page = page.heading("Frequency responses");
@@ -104,24 +112,127 @@ pub fn page(
     page.heading("Runs")
         .table(&run_table(id))
         .heading("Findings")
-        .findings(&id.findings.iter().map(|f| finding(f, hints)).collect::<Vec<_>>())
+        .findings(&findings)
         .footer(&format!("lissom {}", env!("CARGO_PKG_VERSION")))
         .to_html()
 }
 
-fn key_figures(names: UnitNames, id: &Identified, reference: Option<&Reference>) -> Vec<KeyFigure> {
-    parameter_rows(names, id, reference)
-        .into_iter()
-        .map(|row| {
-            let note = match (row.known, reference) {
-                (Some(known), Some(r)) => {
-                    format!("{}: {}", r.label, significant(known, KNOWN_DIGITS))
-                }
-                _ => String::new(),
-            };
-            key_figure(row, note)
-        })
-        .collect()
+/// Adds what the result says about its own logs.
+fn motion_section(
+    mut page: Page,
+    campaign: &Campaign,
+    id: &Identified,
+    own: Option<&Validation>,
+) -> Page {
+    if let Some(own) = own {
+        let motion = own_logs::motion_figures(campaign, own);
+        if !motion.is_empty() {
+            page = page.heading("Measured and predicted motion").gallery(
+                "run",
+                &motion,
+                "The motion that the identified arm makes of the logged command, and the terms of the torque, averaged with a \
+                 short window; no prediction while the motor rests. The run with the largest residual torque comes first.",
+            );
+        }
+        let cycles = own_logs::cycle_figures(campaign, id, own);
+        if !cycles.is_empty() {
+            page = page.heading("One cycle with its friction").gallery(
+                "run",
+                &cycles,
+                "Friction is that of the identified arm at the logged speed, viscous friction included.",
+            );
+        }
+        let residuals = correlation_figures(campaign, own);
+        if !residuals.is_empty() {
+            page = page.heading("Residuals").gallery(
+                "plot",
+                &residuals,
+                "The residual of a complete model is noise: it is not correlated with itself or with the command beyond the \
+                 bands.",
+            );
+        }
+    }
+    let harmonics = own_logs::harmonic_figures(id);
+    if harmonics.is_empty() {
+        return page;
+    }
+    page.heading("Harmonics").gallery(
+        "run",
+        &harmonics,
+        "Dry friction makes odd harmonics. Bars: one standard error.",
+    )
+}
+
+/// The result in two sentences: the most important parameters, and how many findings there are.
+fn in_words(id: &Identified, rows: &[ParameterRow]) -> String {
+    let main = rows.iter().filter(|row| !row.name.starts_with(' '));
+    let estimates = main.filter_map(|row| {
+        let estimate = row.estimate?;
+        let unit = if row.unit == "–" || row.unit == "1" { "" } else { row.unit.as_str() };
+        let value = with_uncertainty(estimate.value, estimate.std);
+        Some(format!("{} {value} {unit}", row.name).trim_end().to_owned())
+    });
+    let given: Vec<String> = estimates.take(MAIN_PARAMETERS).collect();
+    let count = |severity| id.findings.iter().filter(|f| f.severity() == severity).count();
+    let runs = counted(id.runs.len(), "run");
+    let what = if given.is_empty() {
+        format!("{runs} do not determine friction and inertia")
+    } else {
+        format!("{}, from {runs}", given.join(", "))
+    };
+    let mut letters = what.chars();
+    let what = letters.next().map_or_else(String::new, |first| {
+        first.to_uppercase().collect::<String>() + letters.as_str()
+    });
+    format!(
+        "{what}. {} and {}.",
+        counted(count(Severity::Warning), "warning"),
+        counted(count(Severity::Refusal), "refusal")
+    )
+}
+
+/// The findings to know first: refusals, then warnings, each kind once.
+fn main_findings(findings: &[ReportFinding]) -> Vec<ReportFinding> {
+    let mut main: Vec<ReportFinding> = Vec::new();
+    for severity in [ReportSeverity::Refusal, ReportSeverity::Warning] {
+        for finding in findings.iter().filter(|finding| finding.severity == severity) {
+            if main.iter().all(|known| known.code != finding.code) {
+                main.push(finding.clone());
+            }
+        }
+    }
+    main.truncate(MAIN_FINDINGS);
+    main
+}
+
+fn key_figures(
+    id: &Identified,
+    rows: Vec<ParameterRow>,
+    reference: Option<&Reference>,
+) -> Vec<KeyFigure> {
+    let figure = |row: ParameterRow| {
+        let note = match (row.known, reference) {
+            (Some(known), Some(r)) => {
+                format!("{}: {}", r.label, significant(known, KNOWN_DIGITS))
+            }
+            _ => String::new(),
+        };
+        let doubted_by = doubted_by(id, row.key);
+        KeyFigure { doubted_by, ..key_figure(row, note) }
+    };
+    rows.into_iter().map(figure).collect()
+}
+
+/// Codes of the warnings and refusals that affect a key of the result.
+fn doubted_by(id: &Identified, key: &str) -> Vec<String> {
+    let mut codes: Vec<String> = Vec::new();
+    for finding in id.findings.iter().filter(|f| f.severity() != Severity::Info) {
+        let is_new = !codes.iter().any(|code| code == finding.code());
+        if is_new && finding.affects().contains(&key) {
+            codes.push(finding.code().to_owned());
+        }
+    }
+    codes
 }
 
 fn key_figure(row: ParameterRow, note: String) -> KeyFigure {
@@ -131,7 +242,9 @@ fn key_figure(row: ParameterRow, note: String) -> KeyFigure {
         std: row.estimate.map(|e| e.std),
         ci95: row.estimate.map(|e| e.ci95()),
         unit: row.unit,
+        known: row.known,
         note,
+        ..KeyFigure::default()
     }
 }
 

@@ -31,6 +31,21 @@ pub fn validation_plots(campaign: &Campaign, validation: &Validation) -> Vec<Nam
     plots
 }
 
+/// Autocorrelation and cross-correlation of the residual of each channel, each with its name.
+pub(crate) fn correlation_figures(
+    campaign: &Campaign,
+    validation: &Validation,
+) -> Vec<(String, LinePlot)> {
+    let of_channel = |(c, residual): (usize, &ChannelResidual)| {
+        let (name, _) = channel_name_unit(&campaign.channels, c);
+        [
+            (format!("{name}: autocorrelation"), autocorrelation(name, residual)),
+            (format!("{name}: correlation with the command"), cross_correlation(name, residual)),
+        ]
+    };
+    validation.residuals.iter().enumerate().flat_map(of_channel).collect()
+}
+
 fn worst(runs: &[TorqueRun]) -> Option<&TorqueRun> {
     let known = runs.iter().filter(|r| r.relative_error.is_some());
     known.max_by(|a, b| a.relative_error.unwrap_or(0.0).total_cmp(&b.relative_error.unwrap_or(0.0)))

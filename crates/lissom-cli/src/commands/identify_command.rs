@@ -8,7 +8,7 @@ use lissom::identify::{Effort, Identified, SearchEnd, Severity};
 use lissom_io::write::{self, Batch};
 use lissom_io::{ResultFile, UnitNames, read_campaign};
 use lissom_views::known_arm::checked;
-use lissom_views::{Reference, report_page, result_figures};
+use lissom_views::{Reference, own_logs, report_page, result_figures};
 
 use crate::args::identify_args::IdentifyArgs;
 use crate::args::stdout_name::STDOUT;
@@ -55,6 +55,7 @@ pub(crate) fn run(args: &IdentifyArgs) -> Result<ExitCode, Failure> {
             &title,
             &file.campaign,
             &id,
+            own_logs(&file.campaign, &id).as_ref(),
             reference,
             geometry.as_ref(),
             PAGE_HINTS,

@@ -76,6 +76,6 @@ pub use separability::{
 };
 pub use validation::{
     Cause, CauseKind, ChannelFit, ChannelResidual, Horizon, MovedBy, MovedMode, PredictedStretch,
-    TorquePrediction, TorqueRun, TorqueStretch, Validation, ValidationError, ValidationOptions,
-    validate,
+    TorquePrediction, TorqueRun, TorqueStretch, TorqueTerms, Validation, ValidationError,
+    ValidationOptions, validate,
 };

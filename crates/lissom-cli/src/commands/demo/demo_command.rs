@@ -4,7 +4,7 @@ use std::path::Path;
 
 use lissom_io::write::{self, Batch};
 use lissom_io::{ArmFile, ResultFile, read_campaign};
-use lissom_views::{Reference, report_page, result_figures};
+use lissom_views::{Reference, own_logs, report_page, result_figures};
 
 use super::demo_campaign;
 use crate::args::demo_args::DemoArgs;
@@ -40,8 +40,9 @@ pub(crate) fn run(args: &DemoArgs) -> Result<ExitCode, Failure> {
     let mut batch = Batch::new();
     plot_file::add_all(&mut batch, out, &result_figures(channels, &id, Some(&truth)))?;
     batch.commit()?;
-    let text =
-        report_page::page("lissom demo", &file.campaign, &id, Some(&truth), None, PAGE_HINTS);
+    let own = own_logs(&file.campaign, &id);
+    let (own, truth) = (own.as_ref(), Some(&truth));
+    let text = report_page::page("lissom demo", &file.campaign, &id, own, truth, None, PAGE_HINTS);
     write::write_text(&out.join("report.html"), &text)?;
 
     let rows = comparison(&rig.arm, &id);

@@ -18,7 +18,7 @@ pub use motion_fit::{ChannelFit, Horizon, PredictedStretch};
 pub use moved_mode::{MovedBy, MovedMode};
 pub use residual::ChannelResidual;
 use torque::torque;
-pub use torque::{TorquePrediction, TorqueRun, TorqueStretch};
+pub use torque::{TorquePrediction, TorqueRun, TorqueStretch, TorqueTerms};
 use zeros::zeros;
 
 use thiserror::Error;

@@ -62,6 +62,21 @@ pub struct TorqueRun {
     pub logged_nm: Vec<f64>,
     /// Predicted torque, averaged over the window \[N·m\]; NaN if the window does not count.
     pub predicted_nm: Vec<f64>,
+    /// The terms whose sum, with the constant offset, the predicted torque is.
+    pub terms: TorqueTerms,
+}
+
+/// The terms of a predicted torque over time, averaged over the window \[N·m\].
+#[derive(Debug, Clone, Default, PartialEq)]
+pub struct TorqueTerms {
+    /// Inertia times acceleration.
+    pub inertia_nm: Vec<f64>,
+    /// Viscous friction.
+    pub viscous_nm: Vec<f64>,
+    /// The other friction: Coulomb friction and what changes with speed or place.
+    pub dry_nm: Vec<f64>,
+    /// Torque between motor and beam.
+    pub coupling_nm: Vec<f64>,
 }
 
 /// A part of a run in which the motor moves in one direction.
@@ -137,6 +152,12 @@ impl RunRows {
                 .iter()
                 .map(|r| if r.counts { r.predicted } else { f64::NAN })
                 .collect(),
+            terms: TorqueTerms {
+                inertia_nm: self.rows.iter().map(|r| r.terms.inertia).collect(),
+                viscous_nm: self.rows.iter().map(|r| r.terms.viscous).collect(),
+                dry_nm: self.rows.iter().map(|r| r.terms.dry).collect(),
+                coupling_nm: self.rows.iter().map(|r| r.terms.coupling).collect(),
+            },
         }
     }
 

@@ -79,6 +79,15 @@ pub(super) struct Row {
     pub(super) predicted: f64,
     pub(super) velocity: f64,
     pub(super) counts: bool,
+    pub(super) terms: Terms,
+}
+
+/// The terms of a predicted torque, without the constant offset.
+pub(super) struct Terms {
+    pub(super) inertia: f64,
+    pub(super) viscous: f64,
+    pub(super) dry: f64,
+    pub(super) coupling: f64,
 }
 
 impl Row {
@@ -162,7 +171,7 @@ impl<'a> Predictor<'a> {
         let run = WindowedRun::new(self, index)?;
         let mut sums = [0.0; 2];
         for k in 0..run.windows() {
-            let (row, ..) = run.row(k);
+            let (row, _) = run.row(k);
             if row.counts {
                 sums[0] += row.residual().powi(2);
                 sums[1] += row.logged * row.logged;
@@ -181,10 +190,10 @@ impl<'a> Predictor<'a> {
         let mut causes = Causes::new(run, &speed.velocity, sign);
         let mut rows = Vec::with_capacity(windowed.windows());
         for k in 0..windowed.windows() {
-            let (row, acceleration, coupling) = windowed.row(k);
+            let (row, acceleration) = windowed.row(k);
             if row.counts {
                 let by_delay = constant * kernel.rate_of(&run.command()[k..]);
-                let terms = [by_delay, acceleration, row.velocity, coupling];
+                let terms = [by_delay, acceleration, row.velocity, row.terms.coupling];
                 causes.add(row.residual(), kernel, k, terms);
             }
             rows.push(row);
@@ -299,9 +308,9 @@ impl<'a> WindowedRun<'a> {
         self.run.len() - self.kernel.len()
     }
 
-    /// The row of the window that begins at sample `k`, with the acceleration and the torque between motor and beam.
+    /// The row of the window that begins at sample `k`, with the acceleration.
     #[inline(always)]
-    fn row(&self, k: usize) -> (Row, f64, f64) {
+    fn row(&self, k: usize) -> (Row, f64) {
         let Self { predictor, run, kernel, .. } = self;
         let (arm, n) = (predictor.arm, kernel.len());
         let [forward, backward] = arm.viscous_nm_s_per_rad;
@@ -309,12 +318,13 @@ impl<'a> WindowedRun<'a> {
         let constant = predictor.campaign.channels.command.torque_per_unit();
         let acceleration = kernel.acceleration_of(&run.motor()[k..]);
         let velocity = self.speed.rates[k];
-        let coupling = predictor.coupling_torque(self.index, kernel, &self.shown, k);
-        let predicted = arm.inertia_kg_m2 * acceleration
-            + mean * velocity
-            + kernel.mean_of(&self.bent[k..])
-            + arm.offset_nm
-            + coupling;
+        let terms = Terms {
+            inertia: arm.inertia_kg_m2 * acceleration,
+            viscous: mean * velocity,
+            dry: kernel.mean_of(&self.bent[k..]),
+            coupling: predictor.coupling_torque(self.index, kernel, &self.shown, k),
+        };
+        let predicted = terms.inertia + terms.viscous + terms.dry + arm.offset_nm + terms.coupling;
         let row = Row {
             time_s: (k as f64 + 0.5 * n as f64) * run.sample_time_s(),
             logged: constant * kernel.command(k, run.command()),
@@ -323,8 +333,9 @@ impl<'a> WindowedRun<'a> {
             counts: kernel.mean_of(&self.resting[k..]) <= RESTING_SHARE
                 && self.unread[k + n + 1] == self.unread[k]
                 && predictor.logged(run, kernel, k),
+            terms,
         };
-        (row, acceleration, coupling)
+        (row, acceleration)
     }
 }
 

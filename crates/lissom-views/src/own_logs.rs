@@ -1,0 +1,183 @@
+//! What a result says about the logs that it is from: measured and predicted motion, the terms of the torque, harmonics.
+
+use std::f64::consts::TAU;
+
+use lissom::identify::{Identified, RunKind, TorqueRun, Validation, ValidationOptions, validate};
+use lissom::record::Campaign;
+use lissom::spectrum::Harmonics;
+use lissom_io::{UnitNames, channel_name_unit};
+use lissom_report::{Axis, LinePlot, Role, StackedPlot, Trace, TraceStyle};
+
+/// Periods of a cycle's plot.
+const PERIODS: f64 = 1.25;
+/// Colours of the terms of a torque.
+const TERMS: [Role; 4] = [Role::Other(0), Role::Other(1), Role::Other(2), Role::Other(3)];
+
+/// Figures of one kind, each with the name of its run.
+pub(crate) type ByRun = Vec<(String, StackedPlot)>;
+
+/// Predicts the logs that a result is from; `None` if its estimates do not make an arm, or if that cannot be simulated.
+pub fn own_logs(campaign: &Campaign, id: &Identified) -> Option<Validation> {
+    validate(id.arm.as_ref()?, campaign, &ValidationOptions::default()).ok()
+}
+
+/// For each run: measured and predicted motion of each channel, what is left of it, and the terms of the torque. The run with the
+/// largest residual torque comes first.
+pub(crate) fn motion_figures(campaign: &Campaign, found: &Validation) -> ByRun {
+    let mut order: Vec<usize> = (0..campaign.runs.len()).collect();
+    let error = |run: usize| torque_of(found, run).and_then(|t| t.relative_error).unwrap_or(0.0);
+    order.sort_by(|a, b| error(*b).total_cmp(&error(*a)));
+    let figure = |run: usize| {
+        let name = campaign.runs[run].name().to_owned();
+        let mut figure = StackedPlot::new(format!("{name}: measured and predicted"));
+        for channel in 0..=campaign.channels.tips.len() {
+            for plot in motion(campaign, found, run, channel)? {
+                figure = figure.plot(plot);
+            }
+        }
+        if let Some(torque) = torque_of(found, run) {
+            let names = UnitNames::new(&campaign.channels);
+            figure = figure.plot(balance(names, torque));
+        }
+        Some((name, figure))
+    };
+    order.into_iter().filter_map(figure).collect()
+}
+
+fn torque_of(found: &Validation, run: usize) -> Option<&TorqueRun> {
+    found.torque.as_ref()?.runs.iter().find(|torque| torque.run == run)
+}
+
+/// Measured and predicted motion of a channel, and their difference; `None` if nothing is predicted.
+fn motion(
+    campaign: &Campaign,
+    found: &Validation,
+    index: usize,
+    channel: usize,
+) -> Option<[LinePlot; 2]> {
+    let run = &campaign.runs[index];
+    let (name, unit) = channel_name_unit(&campaign.channels, channel);
+    let measured = match channel.checked_sub(1) {
+        None => run.motor(),
+        Some(tip) => run.tips().get(tip)?,
+    };
+    let at = |k: usize| k as f64 * run.sample_time_s();
+    let (mut time, mut predicted, mut residual) = (Vec::new(), Vec::new(), Vec::new());
+    for stretch in found.stretches.iter().filter(|stretch| stretch.run == index) {
+        for (k, value) in stretch.channels.get(channel)?.iter().enumerate() {
+            time.push(at(stretch.first + k));
+            predicted.push(*value);
+            residual.push(measured.get(stretch.first + k)? - value);
+        }
+    }
+    if time.is_empty() {
+        return None;
+    }
+    let axis = || Axis::linear("time (s)");
+    let all = (0..measured.len()).map(at).collect();
+    let both = LinePlot::new("", axis(), Axis::linear(format!("{name} ({unit})")))
+        .trace(Trace::line("measured", Role::Raw, all, measured.to_vec()))
+        .trace(Trace::new("predicted", Role::Fitted, TraceStyle::Dashes, time.clone(), predicted));
+    let label = Axis::linear(format!("{name}, residual ({unit})"));
+    let left = Trace::line("measured − predicted", Role::Corrected, time, residual);
+    Some([both, LinePlot::new("", axis(), label).trace(left)])
+}
+
+/// Which term takes how much of the torque.
+fn balance(names: UnitNames, torque: &TorqueRun) -> LinePlot {
+    let time = || torque.time_s.clone();
+    let mut plot = LinePlot::new("", Axis::linear("time (s)"), torque_axis(names))
+        .trace(Trace::line("logged torque", Role::Raw, time(), torque.logged_nm.clone()));
+    let terms = [
+        ("inertia", &torque.terms.inertia_nm),
+        ("viscous friction", &torque.terms.viscous_nm),
+        ("other friction", &torque.terms.dry_nm),
+        ("beam", &torque.terms.coupling_nm),
+    ];
+    for ((label, values), role) in terms.into_iter().zip(TERMS) {
+        if values.iter().any(|value| *value != 0.0) {
+            plot = plot.trace(Trace::line(label, role, time(), values.clone()));
+        }
+    }
+    let residual = torque.logged_nm.iter().zip(&torque.predicted_nm).map(|(l, p)| l - p).collect();
+    plot.trace(Trace::line("logged − predicted", Role::Corrected, time(), residual))
+}
+
+fn torque_axis(names: UnitNames) -> Axis {
+    let unit = names.torque_unit();
+    let what = match unit {
+        "N" => "force",
+        "N·m" => "torque",
+        _ => "command",
+    };
+    Axis::linear(format!("{what} ({unit})"))
+}
+
+/// One cycle of each sinusoidal run in its middle: the motion, and the friction with the torque.
+pub(crate) fn cycle_figures(campaign: &Campaign, id: &Identified, found: &Validation) -> ByRun {
+    let names = UnitNames::new(&campaign.channels);
+    let figure = |(index, run): (usize, &lissom::record::Run)| {
+        let RunKind::Sinusoidal(sine) = &id.runs.get(index)?.kind else { return None };
+        let torque = torque_of(found, index)?;
+        let middle = 0.5 * run.len() as f64 * run.sample_time_s();
+        let period = TAU / sine.omega_rad_s;
+        let within = |time: f64| (time - middle).abs() <= 0.5 * PERIODS * period;
+        let part = |values: &dyn Fn(usize) -> f64| -> Vec<f64> {
+            let rows = (0..torque.time_s.len()).filter(|k| within(torque.time_s[*k]));
+            rows.map(values).collect()
+        };
+        let time = || part(&|k| torque.time_s[k]);
+        let samples = || (0..run.len()).filter(|k| within(*k as f64 * run.sample_time_s()));
+        let angle = Trace::line(
+            "motor",
+            Role::Raw,
+            samples().map(|k| k as f64 * run.sample_time_s()).collect(),
+            samples().map(|k| run.motor()[k]).collect(),
+        );
+        let (name, unit) = channel_name_unit(&campaign.channels, 0);
+        let friction = part(&|k| torque.terms.viscous_nm[k] + torque.terms.dry_nm[k]);
+        let axis = || Axis::linear("time (s)");
+        let figure = StackedPlot::new(format!("{}: one cycle", run.name()))
+            .plot(LinePlot::new("", axis(), Axis::linear(format!("{name} ({unit})"))).trace(angle))
+            .plot(
+                LinePlot::new("", axis(), torque_axis(names))
+                    .trace(Trace::line(
+                        "logged torque",
+                        Role::Raw,
+                        time(),
+                        part(&|k| torque.logged_nm[k]),
+                    ))
+                    .trace(Trace::line("friction", Role::Corrected, time(), friction)),
+            );
+        Some((run.name().to_owned(), figure))
+    };
+    campaign.runs.iter().enumerate().filter_map(figure).collect()
+}
+
+/// Amplitudes of the harmonics of each sinusoidal run, relative to the first one.
+pub(crate) fn harmonic_figures(id: &Identified) -> Vec<(String, LinePlot)> {
+    let figure = |run: &lissom::identify::RunAnalysis| {
+        let RunKind::Sinusoidal(sine) = &run.kind else { return None };
+        let trace = |label: &str, role, harmonics: &Harmonics, shift: f64| {
+            let first = harmonics.get(1)?.value.norm();
+            let known = harmonics.phasors.iter().enumerate();
+            let x = known.clone().map(|(k, _)| (k + 1) as f64 + shift).collect();
+            let y = known.clone().map(|(_, phasor)| phasor.value.norm() / first).collect();
+            let std = known.map(|(_, phasor)| phasor.std / first).collect();
+            Some(Trace::points_with_bars(label, role, x, y, std))
+        };
+        let plot = LinePlot::new(
+            format!("{}: harmonics", run.name),
+            Axis::linear("harmonic"),
+            Axis::log("amplitude over that of the first harmonic"),
+        );
+        let plot = plot.trace(trace("command", Role::Raw, &sine.command, -0.1)?).trace(trace(
+            "motor",
+            Role::Corrected,
+            &sine.motor,
+            0.1,
+        )?);
+        Some((run.name.clone(), plot))
+    };
+    id.runs.iter().filter_map(figure).collect()
+}
