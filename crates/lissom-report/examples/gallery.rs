@@ -106,7 +106,7 @@ fn key_figures() -> Vec<KeyFigure> {
         std: Some(std),
         ci95: Some([value - 1.96 * std, value + 1.96 * std]),
         unit: unit.into(),
-        note: String::new(),
+        ..KeyFigure::default()
     };
     let refused = KeyFigure {
         name: "Viscous friction".into(),
