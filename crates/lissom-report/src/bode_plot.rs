@@ -149,7 +149,7 @@ impl BodePlot {
     }
 
     /// What an interactive drawing of one of the two panels needs.
-    fn panel_data(y: Axis, marks: &[(&Series, Vec<Mark>)], points: usize) -> PanelData {
+    fn panel_data(y: &Axis, marks: &[(&Series, Vec<Mark>)], points: usize) -> PanelData {
         let style = |series: &Series| match series.style {
             Style::Line => TraceStyle::Line,
             Style::Points | Style::PointsWithBars => TraceStyle::Points,
@@ -157,7 +157,7 @@ impl BodePlot {
         let traces =
             marks.iter().map(|(s, marks)| TraceData::of(&s.label, s.role, style(s), marks, points));
         PanelData {
-            y: AxisData::of(&y),
+            y: AxisData::of(y),
             traces: traces.collect(),
             bands: Vec::new(),
             regions: Vec::new(),
@@ -293,8 +293,8 @@ impl Figure for BodePlot {
             subtitle: self.subtitle.clone(),
             x: AxisData::of(&frequency),
             panels: vec![
-                Self::panel_data(decibels, &magnitude, points),
-                Self::panel_data(degrees, &of(&|p| p.phase.clone()), points),
+                Self::panel_data(&decibels, &magnitude, points),
+                Self::panel_data(&degrees, &of(&|p| p.phase.clone()), points),
             ],
             skipped,
         })

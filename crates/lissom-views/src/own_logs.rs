@@ -160,10 +160,10 @@ pub(crate) fn harmonic_figures(id: &Identified) -> Vec<(String, LinePlot)> {
         let RunKind::Sinusoidal(sine) = &run.kind else { return None };
         let trace = |label: &str, role, harmonics: &Harmonics, shift: f64| {
             let first = harmonics.get(1)?.value.norm();
-            let known = harmonics.phasors.iter().enumerate();
-            let x = known.clone().map(|(k, _)| (k + 1) as f64 + shift).collect();
-            let y = known.clone().map(|(_, phasor)| phasor.value.norm() / first).collect();
-            let std = known.map(|(_, phasor)| phasor.std / first).collect();
+            let known = &harmonics.phasors;
+            let x = (1..=known.len()).map(|k| k as f64 + shift).collect();
+            let y = known.iter().map(|phasor| phasor.value.norm() / first).collect();
+            let std = known.iter().map(|phasor| phasor.std / first).collect();
             Some(Trace::points_with_bars(label, role, x, y, std))
         };
         let plot = LinePlot::new(

@@ -68,7 +68,6 @@ pub fn parameter_rows(
 ) -> Vec<ParameterRow> {
     // An arm.toml is rotary and in SI, so it cannot be compared with parameters per unit of command.
     let reference = reference.filter(|_| names.torque_unit() == "N·m");
-    let arm = reference.and_then(|r| r.arm.as_ref());
     let f = &id.friction;
     let constant = id.torque_per_command.unwrap_or(1.0);
     let torque = || names.torque_unit().to_owned();
@@ -150,6 +149,21 @@ pub fn parameter_rows(
             add(GRAVITY, "  torque constant from m·g·l", Some(constant), unit, None);
         }
     }
+    rows.extend(beam_rows(names, id, reference));
+    rows
+}
+
+/// The beam's parameters: coupling and modes.
+fn beam_rows(
+    names: UnitNames,
+    id: &Identified,
+    reference: Option<&Reference>,
+) -> Vec<ParameterRow> {
+    let arm = reference.and_then(|r| r.arm.as_ref());
+    let mut rows = Vec::new();
+    let mut add = |key: &'static str, name: &str, estimate, unit: String, known: Option<f64>| {
+        rows.push(ParameterRow { name: name.to_owned(), key, estimate, unit, known });
+    };
     if !id.beam.coupling_by_tip.is_empty() || id.beam.coupling.is_some() {
         let known = arm.map(|a| a.dynamics().coupling_motor);
         add(COUPLING, "coupling to the beam", id.beam.coupling, names.coupling_unit(), known);
