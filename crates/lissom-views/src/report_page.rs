@@ -26,7 +26,7 @@ const MAIN_PARAMETERS: usize = 6;
 /// Most findings in the summary.
 const MAIN_FINDINGS: usize = 3;
 
-/// The page as HTML. `own` is the prediction of the campaign itself, see [`own_logs`](crate::own_logs). `reference` adds the parameters of a known arm, `described` the comparison with its dimensions.
+/// The page as HTML. `own` is the prediction of the campaign itself, see [`own_logs()`](crate::own_logs()). `reference` adds the parameters of a known arm, `described` the comparison with its dimensions.
 /// `hints` names what helps in the program that makes the page.
 pub fn page(
     title: &str,

@@ -107,7 +107,7 @@ Examples:
   lissom fleet --table logs.csv --like campaign.toml --out fleet
   lissom fleet logs --like campaign.toml --out fleet --by-folder --pattern \"{machine}/{time}\"
   lissom fleet summary fleet --report page.html
-Each log is identified quickly; where an estimate is refused, again with --refine EFFORT.
+Each log is identified quickly; where an estimate is refused or the angle lags, again with --refine EFFORT.
 What is wrong with one log is in its row. Rows are in Parquet files, which manifest.json lists.";
 
 const SUMMARY_HELP: &str = "\
