@@ -12,13 +12,16 @@ const MISSING: u16 = u16::MAX;
 const SHORT: usize = 50;
 /// Largest deviation of an abscissa from a regular grid, in steps.
 const IRREGULAR: f64 = 0.01;
+/// Largest distance of a point from the line between those that are kept, as a part of the span.
+const SMOOTH: f64 = 0.01;
 /// Largest share of missing values: a line with more is no sampled signal.
 const GAPS_MOST: f64 = 0.9;
 
 /// A line over regular abscissae, its ordinates as 16-bit numbers between the smallest and the largest one.
 ///
-/// Of a line with more points than asked for, the smallest and the largest value of equal intervals are kept, in their order,
-/// at one and three quarters of the interval.
+/// Of a line with more points than asked for, every so many are kept, if straight lines between them are near the others. If
+/// not, the smallest and the largest value of equal intervals are kept, in their order, at one and three quarters of the
+/// interval.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Packed {
     /// First abscissa.
@@ -48,6 +51,8 @@ impl Packed {
         let whole = count <= most;
         let (from, step, kept) = if whole {
             (first, step, values)
+        } else if let Some((stride, some)) = sampled(&values, most, SMOOTH * (high - low)) {
+            (first, step * stride as f64, some)
         } else {
             let intervals = (most / 2).max(1);
             let width = step * count as f64 / intervals as f64;
@@ -84,6 +89,24 @@ fn grid(marks: &[Mark]) -> Option<(f64, f64, usize)> {
         (place - place.round()).abs() < IRREGULAR && (k == 0 || mark.x > marks[k - 1].x)
     });
     is_regular.then_some((first, step, places as usize + 1))
+}
+
+/// Every so many of the values, and how many that are; none if straight lines between them are further from another value than
+/// this.
+fn sampled(values: &[Option<f64>], most: usize, near: f64) -> Option<(usize, Vec<Option<f64>>)> {
+    let stride = values.len().div_ceil(most.max(2));
+    let kept: Vec<Option<f64>> = values.iter().step_by(stride).copied().collect();
+    let is_near = |(k, value): (usize, &Option<f64>)| {
+        let (before, part) = (k / stride, (k % stride) as f64 / stride as f64);
+        match (value, kept[before], kept.get(before + 1).copied().flatten()) {
+            (None, None, _) => true,
+            (Some(y), Some(a), Some(b)) => (y - (a + part * (b - a))).abs() <= near,
+            // The end of the line is left out.
+            (Some(_), Some(_), None) => before + 1 == kept.len(),
+            (None, Some(_), _) | (Some(_), None, _) => false,
+        }
+    };
+    values.iter().enumerate().all(is_near).then_some((stride, kept))
 }
 
 /// Two values of each interval: the smallest and the largest, in their order.
@@ -141,6 +164,17 @@ mod tests {
         let largest = y.iter().position(|y| y.unwrap() > 8.5).unwrap();
         let at = packed.from + packed.step * largest as f64;
         assert!((at - (1.0 + 51.234)).abs() < 2.0 * packed.step, "{at}");
+    }
+
+    #[test]
+    fn of_smooth_lines_points_are_kept_as_they_are() {
+        let smooth = marks(10_000, |k| (f64::from(k) * 0.01).sin());
+        let (packed, whole) = Packed::of(&smooth, 1000).unwrap();
+        let y = ordinates(&packed);
+        assert!(!whole && y.len() == 1000 && (packed.step - 0.01).abs() < 1e-9);
+        for (k, y) in y.into_iter().enumerate() {
+            assert!((y.unwrap() - (k as f64 * 0.1).sin()).abs() < 2.0 / 65_000.0);
+        }
     }
 
     #[test]

@@ -16,7 +16,7 @@ const STYLE: &str = concat!(include_str!("page/uplot.css"), include_str!("page/p
 /// Makes figures interactive. Built from `web/src/page.ts`.
 const SCRIPT: &str = include_str!("page/page.js");
 /// Points of all lines of a gallery together.
-const GALLERY_POINTS: usize = 150_000;
+const GALLERY_POINTS: usize = 140_000;
 /// Points of one of them, at least and at most.
 const GALLERY_LEAST: usize = 300;
 const GALLERY_MOST: usize = 4000;
@@ -345,13 +345,21 @@ fn table_html(table: &Table, rows: &[Vec<String>], attributes: &str) -> String {
     let class = |cells: &Cells| {
         if *cells == Cells::Numbers { " class=\"n\"" } else { "" }
     };
-    let mut html = format!("<div class=\"wide\"><table{attributes}>");
+    // A wide table can be scrolled with the keyboard.
+    let label = if table.caption.is_empty() { "Table".to_owned() } else { escape(&table.caption) };
+    let mut html = format!(
+        "<div class=\"wide\" tabindex=\"0\" role=\"group\" aria-label=\"{label}\"><table{attributes}>"
+    );
     if !table.caption.is_empty() {
         let _ = write!(html, "<caption>{}</caption>", escape(&table.caption));
     }
     html.push_str("<thead><tr>");
     for (heading, cells) in &table.columns {
-        let _ = write!(html, "<th scope=\"col\"{}>{}</th>", class(cells), escape(heading));
+        let _ = if heading.is_empty() {
+            write!(html, "<td></td>")
+        } else {
+            write!(html, "<th scope=\"col\"{}>{}</th>", class(cells), escape(heading))
+        };
     }
     html.push_str("</tr></thead>\n<tbody>");
     for row in rows {
