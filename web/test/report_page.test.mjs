@@ -113,7 +113,8 @@ test("figures obey the keyboard, hide series, and have tables and files", async 
 test("a list chooses the run of a gallery", async () => {
   const { page, said, close } = await opened();
   await page.locator("#measured-and-predicted-motion").scrollIntoViewIfNeeded();
-  const motion = page.locator("figure", { has: page.locator("select") }).first();
+  const motion = page.locator("#measured-and-predicted-motion + figure");
+  await motion.locator(".uplot").first().waitFor();
   const select = motion.locator("select");
   const names = await select.locator("option").allTextContents();
   assert.ok(names.length > 1);

@@ -16,10 +16,10 @@ const STYLE: &str = concat!(include_str!("page/uplot.css"), include_str!("page/p
 /// Makes figures interactive. Built from `web/src/page.ts`.
 const SCRIPT: &str = include_str!("page/page.js");
 /// Points of all lines of a gallery together.
-const GALLERY_POINTS: usize = 140_000;
+const GALLERY_POINTS: usize = 130_000;
 /// Points of one of them, at least and at most.
 const GALLERY_LEAST: usize = 300;
-const GALLERY_MOST: usize = 4000;
+const GALLERY_MOST: usize = 2000;
 /// SHA-256 of the script, Base64: the only one that the page may run.
 const SCRIPT_HASH: &str = include_str!("page/page.js.sha256");
 
