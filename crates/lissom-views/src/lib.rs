@@ -45,6 +45,7 @@ mod named_figure;
 mod own_logs;
 pub mod parameter_rows;
 pub mod payload_plot;
+mod pole_zero_map;
 mod program_hints;
 pub mod report_page;
 mod result_figures;

@@ -17,8 +17,8 @@ use crate::slip_windows::window_table;
 use crate::validation_plots::correlation_figures;
 use crate::velocity_friction::{friction_plot, stretch_table};
 use crate::{
-    arm_check, bode_plots, equivalent_section, friction_curve, own_logs, separability_section,
-    third_harmonic,
+    arm_check, bode_plots, equivalent_section, friction_curve, own_logs, pole_zero_map,
+    separability_section, third_harmonic,
 };
 
 /// Most parameters in the summary.
@@ -60,6 +60,14 @@ pub fn page(
             plot,
             "Points: runs, or frequency bands. Line: the model, fitted to the points or computed from the \
              parameters.",
+        );
+    }
+    let maps = pole_zero_map::maps(&campaign.channels, id);
+    if !maps.is_empty() {
+        page = page.gallery(
+            "response of",
+            &maps,
+            "Of the linear models, without dry friction and delays.",
         );
     }
     if let Some(plot) = third_harmonic::pair_plot(names, id) {

@@ -15,6 +15,9 @@ pub(crate) fn section(page: Page, names: UnitNames, id: &Identified) -> Page {
     if !found.parameters.is_empty() {
         page = page.table(&parameters(found));
     }
+    if let Some(table) = correlations(found) {
+        page = page.table(&table);
+    }
     if found.runs.is_empty() { page } else { page.table(&runs(found)) }
 }
 
@@ -36,6 +39,30 @@ fn parameters(found: &Separability) -> Table {
         table = table.row([known.parameter.name(), share(known.std), share(known.alone)]);
     }
     table
+}
+
+/// Correlation of the estimates, below the diagonal; `None` with fewer than two parameters.
+fn correlations(found: &Separability) -> Option<Table> {
+    let parameters = &found.parameters;
+    if parameters.len() < 2 || found.correlation.nrows() != parameters.len() {
+        return None;
+    }
+    let names: Vec<String> = parameters.iter().map(|known| known.parameter.name()).collect();
+    let columns = names.iter().take(names.len() - 1).map(|name| (name.as_str(), Cells::Numbers));
+    let columns: Vec<(&str, Cells)> = std::iter::once(("", Cells::Text)).chain(columns).collect();
+    let mut table = Table::new("Correlation of the estimates", &columns);
+    for (row, name) in names.iter().enumerate().skip(1) {
+        let of = |column: usize| {
+            let value = found.correlation[(row, column)];
+            if value.is_finite() {
+                format!("{value:+.2}").replace('-', "−")
+            } else {
+                "–".to_owned()
+            }
+        };
+        table = table.row(std::iter::once(name.clone()).chain((0..row).map(of)));
+    }
+    Some(table)
 }
 
 fn runs(found: &Separability) -> Table {
