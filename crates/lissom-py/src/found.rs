@@ -14,12 +14,13 @@ use crate::campaign::NativeCampaign;
 use crate::equivalent::{Solved, solved};
 use crate::errors::{input_error, raised};
 use crate::reading_results::{Row, rows};
+use crate::worker;
 
 /// An identification with its logs: immutable.
 #[pyclass(frozen, name = "Found", module = "lissom._lissom")]
 pub(crate) struct NativeFound {
     file: Arc<CampaignFile>,
-    found: Box<Found>,
+    found: Arc<Found>,
 }
 
 #[pymethods]
@@ -37,17 +38,18 @@ impl NativeFound {
     }
 
     /// The report page as HTML, as the command writes it, but without hints about options of the command.
-    fn report(&self, py: Python<'_>, title: &str) -> PyResult<String> {
+    fn report(&self, py: Python<'_>, title: String) -> PyResult<String> {
         let reference = self.reference(py)?;
-        let page = || {
-            let (campaign, id) = (&self.file.campaign, self.found.identified());
+        let (file, found) = (Arc::clone(&self.file), Arc::clone(&self.found));
+        // The prediction of long logs takes seconds.
+        worker::wait(py, move || {
+            let (campaign, id) = (&file.campaign, found.identified());
             let described = checked(id, reference.as_ref());
             let (reference, described) = (reference.as_ref(), described.as_ref());
             let own = own_logs(campaign, id);
             let (own, hints) = (own.as_ref(), ProgramHints::NONE);
-            report_page::page(title, campaign, id, own, reference, described, hints)
-        };
-        Ok(py.detach(page))
+            Ok(report_page::page(&title, campaign, id, own, reference, described, hints))
+        })
     }
 
     /// Predicts other payloads: the text that `lissom payload --json` writes.
@@ -100,7 +102,7 @@ impl NativeFound {
 
 impl NativeFound {
     pub(crate) fn new(file: Arc<CampaignFile>, found: Found) -> Self {
-        Self { file, found: Box::new(found) }
+        Self { file, found: Arc::new(found) }
     }
 
     /// The arm.toml that the campaign gives for comparison.
