@@ -69,7 +69,8 @@ impl FleetRun {
     /// # Errors
     /// [`FleetError::NoLogs`] without logs, [`FleetError::Setting`] if the time limit is not positive,
     /// [`FleetError::FindingCode`] if a refinement asks for a finding that does not exist, [`FleetError::OtherSettings`],
-    /// [`FleetError::NotEmpty`] (if rows are refused), [`FleetError::InUse`], [`FleetError::Damaged`] or [`FleetError::Write`] if the folder cannot be used.
+    /// [`FleetError::NotEmpty`] (if rows are refused), [`FleetError::InUse`], [`FleetError::NoManifest`],
+    /// [`FleetError::Damaged`] or [`FleetError::Write`] if the folder cannot be used.
     pub fn begin(
         out: &Path,
         settings: FleetSettings,

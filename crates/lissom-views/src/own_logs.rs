@@ -21,7 +21,7 @@ pub fn own_logs(campaign: &Campaign, id: &Identified) -> Option<Validation> {
     validate(id.arm.as_ref()?, campaign, &ValidationOptions::default()).ok()
 }
 
-/// For each run: measured and predicted motion of each channel, what is left of it, and the terms of the torque. The run with the
+/// For each run: measured and predicted motion of each channel, its residual, and the terms of the torque. The run with the
 /// largest residual torque comes first.
 pub(crate) fn motion_figures(campaign: &Campaign, found: &Validation) -> ByRun {
     let mut order: Vec<usize> = (0..campaign.runs.len()).collect();

@@ -2,16 +2,11 @@
 
 use lissom::identify::{ConstantVelocity, Estimate, Identified};
 use lissom_io::UnitNames;
+use lissom_io::result::finding_keys::{
+    CONSTANT_VELOCITY, COULOMB, COUPLING, GRAVITY, INERTIA, MODES, OFFSET, VISCOUS,
+};
 
 use crate::known_arm::Reference;
-
-const COULOMB: &str = "friction.coulomb";
-const OFFSET: &str = "friction.offset";
-const VISCOUS: &str = "friction.viscous";
-const INERTIA: &str = "drive.inertia";
-const GRAVITY: &str = "gravity";
-const COUPLING: &str = "beam.coupling";
-const MODES: &str = "beam.modes";
 
 /// Significant digits of parameters that are known beforehand.
 pub const KNOWN_DIGITS: usize = 6;
@@ -45,7 +40,7 @@ pub fn classical_rows(
     let command = || names.command_unit().to_owned();
     let row = |name: &str, estimate, unit: String| ParameterRow {
         name: name.to_owned(),
-        key: "methods.constant_velocity",
+        key: CONSTANT_VELOCITY,
         estimate,
         unit,
         known: None,

@@ -107,35 +107,42 @@ impl FleetFolder {
 
     /// Gives rows the machines and times of their logs, where those are known: a pattern or table may have been corrected.
     fn take_places(&mut self, logs: &[FleetLog]) -> Result<(), FleetError> {
-        let known: HashMap<&str, &FleetLog> =
-            logs.iter().map(|log| (log.log.as_str(), log)).collect();
+        let placed = logs.iter().filter(|log| log.machine.is_some() || log.time_us.is_some());
+        let known: HashMap<&str, &FleetLog> = placed.map(|log| (log.log.as_str(), log)).collect();
+        if known.is_empty() {
+            return Ok(());
+        }
         self.replace_parts(|table| {
-            let mut columns = table.columns()?;
-            let Some(Values::Text(names)) = table.column(LOG)? else { return Ok(None) };
-            let of = |row: usize| names[row].as_deref().and_then(|name| known.get(name));
+            let (
+                Some(Values::Text(names)),
+                Some(Values::Text(mut machines)),
+                Some(Values::Time(mut times)),
+            ) = (table.column(LOG)?, table.column(MACHINE)?, table.column(TIME)?)
+            else {
+                return Ok(None);
+            };
             let mut differs = false;
+            for ((name, machine), time) in names.iter().zip(&mut machines).zip(&mut times) {
+                let Some(log) = name.as_deref().and_then(|name| known.get(name)) else { continue };
+                if log.machine.is_some() && log.machine != *machine {
+                    (*machine, differs) = (log.machine.clone(), true);
+                }
+                if log.time_us.is_some() && log.time_us != *time {
+                    (*time, differs) = (log.time_us, true);
+                }
+            }
+            if !differs {
+                return Ok(None);
+            }
+            let mut columns = table.columns()?;
             for (name, values) in &mut columns {
-                match values {
-                    Values::Text(machines) if name == MACHINE => {
-                        for (row, machine) in machines.iter_mut().enumerate() {
-                            let new = of(row).and_then(|log| log.machine.clone());
-                            if new.is_some() && new != *machine {
-                                (*machine, differs) = (new, true);
-                            }
-                        }
-                    }
-                    Values::Time(times) if name == TIME => {
-                        for (row, time) in times.iter_mut().enumerate() {
-                            let new = of(row).and_then(|log| log.time_us);
-                            if new.is_some() && new != *time {
-                                (*time, differs) = (new, true);
-                            }
-                        }
-                    }
+                match name.as_str() {
+                    MACHINE => *values = Values::Text(std::mem::take(&mut machines)),
+                    TIME => *values = Values::Time(std::mem::take(&mut times)),
                     _ => {}
                 }
             }
-            Ok(differs.then_some(columns))
+            Ok(Some(columns))
         })
     }
 

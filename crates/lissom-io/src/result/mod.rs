@@ -15,6 +15,7 @@ mod equivalent_file;
 mod estimate_entry;
 mod estimate_keys;
 mod finding_entry;
+pub mod finding_keys;
 mod friction_entry;
 mod friction_law_entry;
 mod friction_term_entries;

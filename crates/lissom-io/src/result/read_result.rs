@@ -9,6 +9,7 @@ use super::channel_names::{AxisName, MethodName};
 use super::estimate_entry::EstimateEntry;
 use super::estimate_keys::Refusable;
 use super::finding_entry::{FindingEntry, SeverityName};
+use super::finding_keys::{COULOMB, COUPLING, GRAVITY, INERTIA, MODES, OFFSET, VISCOUS};
 use super::friction_entry::FrictionEntry;
 use super::friction_law_entry::ChosenTermEntry;
 use super::friction_term_entries::LawTermName;
@@ -19,15 +20,6 @@ use super::unit_keys::{Quantity, WithUnit};
 use super::unit_names::UnitNames;
 use crate::io_error::Error;
 use crate::read_text::read_text;
-
-/// Keys of findings, without the suffix of their unit.
-const COULOMB: &str = "friction.coulomb";
-const OFFSET: &str = "friction.offset";
-const VISCOUS: &str = "friction.viscous";
-const INERTIA: &str = "drive.inertia";
-const GRAVITY: &str = "gravity";
-const COUPLING: &str = "beam.coupling";
-const MODES: &str = "beam.modes";
 
 /// A result as a list of parameters.
 #[derive(Debug, Clone, PartialEq)]
