@@ -48,7 +48,7 @@ impl NativeFound {
             let (reference, described) = (reference.as_ref(), described.as_ref());
             let own = own_logs(campaign, id);
             let (own, hints) = (own.as_ref(), ProgramHints::NONE);
-            Ok(report_page::page(&title, campaign, id, own, reference, described, hints))
+            Ok(report_page::page(&title, campaign, id, own, reference, described, hints).to_html())
         })
     }
 

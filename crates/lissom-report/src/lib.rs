@@ -58,7 +58,7 @@ pub use figure_trait::Figure;
 pub use line_plot::LinePlot;
 pub use lissom_text::{interval, significant, with_uncertainty};
 pub use packed::Packed;
-pub use page::Page;
+pub use page::{PAGE_STYLE, Page};
 pub use page_parts::{Cells, Finding, KeyFigure, Severity, Table};
 pub use palette::Role;
 pub use scale::Scale;

@@ -12,7 +12,8 @@ use crate::html::escape;
 use crate::page_parts::{Cells, Finding, KeyFigure, Table};
 use lissom_text::{interval, with_uncertainty};
 
-const STYLE: &str = concat!(include_str!("page/uplot.css"), include_str!("page/page.css"));
+/// The style of pages.
+pub const PAGE_STYLE: &str = concat!(include_str!("page/uplot.css"), include_str!("page/page.css"));
 /// Makes figures interactive. Built from `web/src/page.ts`.
 const SCRIPT: &str = include_str!("page/page.js");
 /// Points of all lines of a gallery together.
@@ -266,24 +267,28 @@ impl Page {
     /// The page as a complete HTML document.
     pub fn to_html(&self) -> String {
         let title = escape(&self.title);
-        let (before, after) = self.body.split_at(self.contents_at.unwrap_or(0));
-        let contents = self.contents_html();
-        let (bar, allowed, script) = if self.has_data {
-            (
-                "<div id=\"units\" hidden=\"hidden\"></div>\n",
-                format!(" script-src 'sha256-{SCRIPT_HASH}';"),
-                format!("<script>{SCRIPT}</script>\n"),
-            )
+        let content = self.to_fragment();
+        let (allowed, script) = if self.has_data {
+            (format!(" script-src 'sha256-{SCRIPT_HASH}';"), format!("<script>{SCRIPT}</script>\n"))
         } else {
-            ("", String::new(), String::new())
+            (String::new(), String::new())
         };
         format!(
             "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\"/>\n\
              <meta http-equiv=\"Content-Security-Policy\" content=\"default-src 'none';{allowed} style-src 'unsafe-inline'\"/>\n\
              <meta name=\"viewport\" content=\"width=device-width, initial-scale=1\"/>\n<title>{title}</title>\n\
-             <style>\n{STYLE}</style>\n</head>\n<body>\n<main>\n<h1>{title}</h1>\n{before}{contents}{bar}{after}</main>\n\
+             <style>\n{PAGE_STYLE}</style>\n</head>\n<body>\n<main>\n{content}</main>\n\
              {script}</body>\n</html>\n"
         )
+    }
+
+    /// The content of the page, from its title on, for a program that shows it in a page of its own with [`PAGE_STYLE`].
+    pub fn to_fragment(&self) -> String {
+        let title = escape(&self.title);
+        let (before, after) = self.body.split_at(self.contents_at.unwrap_or(0));
+        let contents = self.contents_html();
+        let bar = if self.has_data { "<div id=\"units\" hidden=\"hidden\"></div>\n" } else { "" };
+        format!("<h1>{title}</h1>\n{before}{contents}{bar}{after}")
     }
 
     fn contents_html(&self) -> String {

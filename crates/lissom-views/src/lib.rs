@@ -23,7 +23,8 @@
 //! # let campaign: &Campaign = logs.as_ref();
 //! let found = Identify::new(campaign).effort(Effort::Quick).run()?;
 //! let id = found.identified();
-//! let html = report_page::page("My axis", campaign, id, None, None, None, ProgramHints::NONE);
+//! let page = report_page::page("My axis", campaign, id, None, None, None, ProgramHints::NONE);
+//! let html = page.to_html();
 //! assert!(html.contains("Coulomb friction"));
 //! let figures = result_figures(&campaign.channels, id, None);
 //! assert_eq!(figures[0].name, "bode-motor");

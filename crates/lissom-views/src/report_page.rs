@@ -26,7 +26,8 @@ const MAIN_PARAMETERS: usize = 6;
 /// Most findings in the summary.
 const MAIN_FINDINGS: usize = 3;
 
-/// The page as HTML. `own` is the prediction of the campaign itself, see [`own_logs()`](crate::own_logs()). `reference` adds the parameters of a known arm, `described` the comparison with its dimensions.
+/// The page of a result. `own` is the prediction of the campaign itself, see [`own_logs()`](crate::own_logs()). `reference`
+/// adds the parameters of a known arm, `described` the comparison with its dimensions.
 /// `hints` names what helps in the program that makes the page.
 pub fn page(
     title: &str,
@@ -36,7 +37,7 @@ pub fn page(
     reference: Option<&Reference>,
     described: Option<&GeometryCheck>,
     hints: ProgramHints,
-) -> String {
+) -> Page {
     let names = UnitNames::new(&campaign.channels);
     let rows = parameter_rows(names, id, reference);
     let findings: Vec<ReportFinding> = id.findings.iter().map(|f| finding(f, hints)).collect();
@@ -122,7 +123,6 @@ pub fn page(
         .heading("Findings")
         .findings(&findings)
         .footer(&format!("lissom {}", env!("CARGO_PKG_VERSION")))
-        .to_html()
 }
 
 /// Adds what the result says about its own logs.

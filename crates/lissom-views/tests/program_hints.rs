@@ -23,8 +23,9 @@ fn logs(omega_rad_s: &[f64]) -> Result<Campaign, Box<dyn std::error::Error>> {
 fn a_page_has_the_hints_of_its_program_and_no_others() -> Outcome {
     let campaign = logs(&[3.0])?;
     let found = Identify::new(&campaign).effort(Effort::Quick).run()?;
-    let page =
-        |hints| report_page::page("axis", &campaign, found.identified(), None, None, None, hints);
+    let page = |hints| {
+        report_page::page("axis", &campaign, found.identified(), None, None, None, hints).to_html()
+    };
     assert!(!found.findings().is_empty());
     let of_finding = |_: &FindingKind| Some(HINT);
     let with = page(ProgramHints { of_finding, ..ProgramHints::NONE });

@@ -51,7 +51,7 @@ pub(crate) fn run(args: &IdentifyArgs) -> Result<ExitCode, Failure> {
     let mut batch = Batch::new();
     if let Some(path) = &args.report {
         let title = name.display().to_string();
-        let text = report_page::page(
+        let page = report_page::page(
             &title,
             &file.campaign,
             &id,
@@ -60,7 +60,7 @@ pub(crate) fn run(args: &IdentifyArgs) -> Result<ExitCode, Failure> {
             geometry.as_ref(),
             PAGE_HINTS,
         );
-        batch.file(path, text.as_bytes())?;
+        batch.file(path, page.to_html().as_bytes())?;
     }
     if let Some(path) = json_file {
         batch.file(path, write::json_text(path, &result)?.as_bytes())?;

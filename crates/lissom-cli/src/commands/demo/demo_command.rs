@@ -42,8 +42,8 @@ pub(crate) fn run(args: &DemoArgs) -> Result<ExitCode, Failure> {
     batch.commit()?;
     let own = own_logs(&file.campaign, &id);
     let (own, truth) = (own.as_ref(), Some(&truth));
-    let text = report_page::page("lissom demo", &file.campaign, &id, own, truth, None, PAGE_HINTS);
-    write::write_text(&out.join("report.html"), &text)?;
+    let page = report_page::page("lissom demo", &file.campaign, &id, own, truth, None, PAGE_HINTS);
+    write::write_text(&out.join("report.html"), &page.to_html())?;
 
     let rows = comparison(&rig.arm, &id);
     match args.json.as_deref() {
