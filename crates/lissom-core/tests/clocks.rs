@@ -2,7 +2,7 @@
 #![expect(clippy::unwrap_used, reason = "a test fails by panicking")]
 
 use lissom::identify::{Effort, Finding, Identified, Options, identify};
-use lissom::record::clock::{LogRows, even_parts};
+use lissom::record::clock::{LogRows, Trim, even_parts};
 use lissom::record::{Axis, Campaign, Channels, Command, CommandQuantity, Hold, Run};
 use lissom_testmodels::{RigidJoint, two_sines};
 
@@ -33,7 +33,7 @@ fn identified(kept: &[usize], stamps_s: Vec<f64>, hold: Hold, finding: &str) -> 
         motor: pick(&log.angle),
         tips: Vec::new(),
     };
-    let even = even_parts(rows, 0.0, 50).unwrap();
+    let even = even_parts(rows, &Trim::default(), 50).unwrap();
     let runs = even.parts.into_iter().enumerate().map(|(index, part)| {
         let run =
             Run::new(format!("log [{index}]"), part.time, part.command, part.motor, part.tips);

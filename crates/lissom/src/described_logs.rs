@@ -1,6 +1,6 @@
 //! Logs that no campaign.toml describes: what a log shows and what the user says make one.
 
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 use lissom_core::identify::hold_shown;
 use lissom_core::record::Hold;
@@ -17,6 +17,7 @@ pub struct DescribedLogs {
     pub log: Inspection,
     /// The campaign made of it.
     pub draft: CampaignDraft,
+    folder: PathBuf,
 }
 
 impl DescribedLogs {
@@ -27,12 +28,24 @@ impl DescribedLogs {
     /// [`Error::Log`] if a log cannot be read, [`Error::Draft`] if what is said does not fit it.
     pub fn new(logs: &[PathBuf], said: &Description) -> Result<Self, Error> {
         let first = logs.first().ok_or(DraftError::NoLog)?;
-        let log = inspect_with(first, &said.text_options())?;
-        let draft = CampaignDraft::new(&log, logs, said)?;
-        for other in &logs[1..] {
-            log.same_units(other, &said.text_options())?;
+        Self::in_folder(inspect_with(first, &said.text_options())?, Path::new(""), logs, said)
+    }
+
+    /// The same with a first log that is inspected already; the logs are relative to a folder.
+    ///
+    /// # Errors
+    /// As [`new`](Self::new).
+    pub fn in_folder(
+        first: Inspection,
+        folder: &Path,
+        logs: &[PathBuf],
+        said: &Description,
+    ) -> Result<Self, Error> {
+        let draft = CampaignDraft::new(&first, logs, said)?;
+        for other in logs.iter().skip(1) {
+            first.same_units(&folder.join(other), &said.text_options())?;
         }
-        let mut described = Self { log, draft };
+        let mut described = Self { log: first, draft, folder: folder.to_owned() };
         if let Some(hold) = described.hold_shown() {
             let said = Description { hold_shown: Some(hold), ..said.clone() };
             described.draft = CampaignDraft::new(&described.log, logs, &said)?;
@@ -59,6 +72,6 @@ impl DescribedLogs {
     /// # Errors
     /// [`Error::Draft`] if something is missing in the description; others if a log cannot be used.
     pub fn read(&self) -> Result<CampaignFile, Error> {
-        CampaignReader::of_text(NAME, self.draft.text()?).read()
+        CampaignReader::of_text(NAME, self.draft.text()?).in_folder(&self.folder).read()
     }
 }

@@ -129,6 +129,7 @@ impl LogArgs {
             mgl: self.mgl.clone(),
             skip: self.skip.clone(),
             window: None,
+            trims: Vec::new(),
         }
     }
 }

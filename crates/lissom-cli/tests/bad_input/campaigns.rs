@@ -234,7 +234,7 @@ fn the_arm_has_a_negative_inertia() {
 #[test]
 fn skipping_leaves_nothing() {
     Bench::adding("skip = \"1 min\"\n").refuses(
-        "error: run.csv: skipping 60 s leaves 0 rows of a log of 19.995 s\n\
-         hint: give a smaller `skip`",
+        "error: run.csv: leaving out what is asked for leaves 0 rows of a log of 19.995 s\n\
+         hint: leave out less: see `skip`, `until` and `leave_out`",
     );
 }

@@ -107,4 +107,9 @@ pub enum Note {
         /// Time left out \[s\].
         seconds: f64,
     },
+    /// Stretches were left out because it was requested.
+    LeftOut {
+        /// Their number, the end of the log included.
+        stretches: usize,
+    },
 }

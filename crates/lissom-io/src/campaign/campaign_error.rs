@@ -25,6 +25,12 @@ pub enum CampaignError {
         /// The unit found.
         unit: String,
     },
+    /// A file is outside of the folder of a campaign that may read nothing else.
+    #[error("{file}: is not inside the folder of the campaign")]
+    Outside {
+        /// The file as the campaign names it.
+        file: String,
+    },
     /// The motor's quantity is a speed, but its unit is not a unit of speed.
     #[error("{place}: \"{unit}\" is not a unit of speed, but the motor's `quantity` is \"speed\"")]
     NotASpeed {
@@ -187,6 +193,9 @@ impl CampaignError {
         let hint = match self {
             Self::MotorUnit { .. } => {
                 "give \"rad\" or \"deg\" for a rotary axis, \"m\" or \"mm\" for a linear one; counts: unit = \"rad\" with scale = rad per count; speeds: \"rpm\" with quantity = \"speed\""
+            }
+            Self::Outside { .. } => {
+                "name a file that is given together with the campaign, without a folder above it"
             }
             Self::SpeedUnit { .. } => {
                 "add `quantity = \"speed\"`: the angle is then integrated from the speed"

@@ -84,6 +84,41 @@ fn scale_offset_and_unit_apply_in_that_order() {
 }
 
 #[test]
+fn a_confined_campaign_reads_nothing_outside_of_its_folder() {
+    const OWN: &str =
+        "unit = \"rad\", file = \"/dev/zero\", time = { column = \"t\", unit = \"s\" }";
+    let outside = |text: String| {
+        let reader = CampaignReader::of_text("campaign", text).confined();
+        reader.read().unwrap_err().to_string()
+    };
+    for file in ["../a.csv", "/etc/hostname", "b/../../a.csv::x"] {
+        let error = outside(PLAIN.replace("a.csv", file));
+        assert!(error.ends_with("is not inside the folder of the campaign"), "{error}");
+    }
+    let arm = outside(PLAIN.replace("[drive]", "[drive]\narm = \"../arm.toml\""));
+    assert!(arm.ends_with("is not inside the folder of the campaign"), "{arm}");
+    let own = outside(PLAIN.replace("unit = \"rad\"", OWN));
+    assert_eq!(own, "/dev/zero: is not inside the folder of the campaign");
+    let inside = outside(PLAIN.replace("a.csv", "none/a.csv"));
+    assert!(inside.contains("cannot be opened"), "{inside}");
+}
+
+#[test]
+fn stretches_of_a_run_may_be_left_out() {
+    let more = "until = \"0.35 s\"\nleave_out = [[\"100 ms\", 0.2]]\n";
+    let logs = [("a.csv", log(0..400))];
+    let logs = logs.each_ref().map(|(name, log)| (*name, log.as_str()));
+    let runs = read_logs(&format!("{PLAIN}{more}"), &logs).unwrap().campaign.runs;
+    let found: Vec<(&str, usize)> = runs.iter().map(|run| (run.name(), run.len())).collect();
+    assert_eq!(found, [("a.csv [1/2]", 100), ("a.csv [2/2]", 150)]);
+    assert_eq!(runs[0].notes(), [Note::LeftOut { stretches: 2 }]);
+    for wrong in ["leave_out = [\"1 s\"]", "leave_out = [[1, 2, 3]]", "leave_out = [[2, 1]]"] {
+        let error = read_logs(&format!("{PLAIN}{wrong}\n"), &logs).unwrap_err().to_string();
+        assert!(error.contains("a list of stretches"), "{error}");
+    }
+}
+
+#[test]
 fn runs_may_have_name_frequency_and_skip() {
     let text = format!(
         "{PLAIN}name = \"one\"\nfrequency = \"5 Hz\"\n[[runs]]\nfile = \"b.csv\"\nomega_rad_s = 3\nskip = \"20 ms\"\n\
@@ -419,8 +454,8 @@ fn logs_that_do_not_fit_their_campaign() {
     );
     fails(
         &format!("{PLAIN}skip = \"1 s\"\n"),
-        "a.csv: skipping 1 s leaves 0 rows of a log of 0.099 s",
-        Some("give a smaller `skip`"),
+        "a.csv: leaving out what is asked for leaves 0 rows of a log of 0.099 s",
+        Some("leave out less: see `skip`, `until` and `leave_out`"),
     );
     fails(
         &format!("{PLAIN}frequency = \"500 Hz\"\n"),

@@ -110,8 +110,13 @@ fn load_run(
             if factor > 1 {
                 run = run.with_note(Note::Thinned { factor });
             }
-            if spec.skip_s > 0.0 {
-                run = run.with_note(Note::HeadSkipped { seconds: spec.skip_s });
+            if spec.trim.skip_s > 0.0 {
+                run = run.with_note(Note::HeadSkipped { seconds: spec.trim.skip_s });
+            }
+            if !spec.trim.is_head() {
+                let stretches =
+                    spec.trim.left_out_s.len() + usize::from(spec.trim.until_s.is_some());
+                run = run.with_note(Note::LeftOut { stretches });
             }
             if signals.motor_speed {
                 run = run.with_note(Note::SpeedIntegrated);
@@ -216,10 +221,9 @@ fn even_parts(
     let hold = signals.command.hold;
     let rows = LogRows { stamps_s, sample_time_s, stamp_step_s, command, hold, motor, tips };
     let even =
-        clock::even_parts(rows, spec.skip_s, options.least_piece).map_err(|error| match error {
+        clock::even_parts(rows, &spec.trim, options.least_piece).map_err(|error| match error {
             ClockError::NothingLeft { left, length_s } => {
-                let (file, skip_s) = (file.to_owned(), spec.skip_s);
-                LogError::AllSkipped { file, skip_s, length_s, left }
+                LogError::AllLeftOut { file: file.to_owned(), length_s, left }
             }
             error => {
                 let row = match error {

@@ -1,8 +1,9 @@
 //! Reads a `campaign.toml` and its logs.
 
-use std::path::{Path, PathBuf};
+use std::path::{Component, Path, PathBuf};
 
 use super::campaign_drive;
+use super::campaign_error::CampaignError;
 use super::campaign_file::{AnalysisOptions, CampaignFile, ReadOptions};
 use super::campaign_load::{self, CampaignLoad};
 use super::campaign_signals::signals;
@@ -23,6 +24,7 @@ pub struct CampaignReader {
     logs: MemoryLogs,
     only: Vec<PathBuf>,
     folder: Option<PathBuf>,
+    confined: bool,
     options: ReadOptions,
 }
 
@@ -40,7 +42,7 @@ impl CampaignReader {
 
     fn new(source: Result<Source, ConfigError>) -> Self {
         let (logs, options) = (MemoryLogs::default(), ReadOptions::default());
-        Self { source, logs, only: Vec::new(), folder: None, options }
+        Self { source, logs, only: Vec::new(), folder: None, confined: false, options }
     }
 
     /// Takes logs from memory: a `file` of the campaign that is the name of one of them is that log.
@@ -59,6 +61,12 @@ impl CampaignReader {
     /// Reads the logs of the runs in this folder, in place of the campaign's own.
     pub fn in_folder(mut self, folder: &Path) -> Self {
         self.folder = Some(folder.to_owned());
+        self
+    }
+
+    /// Refuses files outside of the folder: a campaign of someone else can then read nothing but what is there.
+    pub fn confined(mut self) -> Self {
+        self.confined = true;
         self
     }
 
@@ -99,6 +107,9 @@ impl CampaignReader {
         let source = self.source?;
         let folder = self.folder.as_deref().unwrap_or(source.folder());
         let places = LogPlaces { folder, memory: &self.logs };
+        if self.confined {
+            confine(&source)?;
+        }
         read(&source, &self.only, places, &self.options)
     }
 }
@@ -117,6 +128,27 @@ pub fn read_campaign(path: &Path) -> Result<CampaignFile, Error> {
 /// As [`CampaignReader::read`].
 pub fn read_campaign_like(path: &Path, log: &Path) -> Result<CampaignFile, Error> {
     CampaignReader::of_file(path).only(log).read()
+}
+
+/// Refuses a campaign that names files outside of its folder.
+fn confine(source: &Source) -> Result<(), Error> {
+    let document = source.parse()?;
+    let root = source.root(&document);
+    let signals = signals(&root.need("signals")?.table()?)?;
+    let mut files = Vec::new();
+    for spec in runs(&root.need("runs")?, None)? {
+        files.extend(logs_of_run(&signals, &spec).iter().map(|log| LogPath::of(log).file));
+    }
+    if let Some(drive) = root.get("drive").map(|value| value.table()).transpose()?
+        && let Some(arm) = drive.get("arm")
+    {
+        files.push(PathBuf::from(arm.text()?));
+    }
+    let is_inside = |file: &PathBuf| file.components().all(|c| matches!(c, Component::Normal(_)));
+    match files.into_iter().find(|file| !is_inside(file)) {
+        Some(file) => Err(CampaignError::Outside { file: file.display().to_string() }.into()),
+        None => Ok(()),
+    }
 }
 
 fn read(

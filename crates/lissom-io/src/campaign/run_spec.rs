@@ -2,7 +2,9 @@
 
 use std::path::{Path, PathBuf};
 
-use crate::config::{ConfigError, ConfigPlace, Rule, Value};
+use lissom_core::record::clock::Trim;
+
+use crate::config::{ConfigError, ConfigPlace, Rule, Table, Value};
 use crate::log::{LogPart, LogPath};
 use crate::units::Dimension;
 
@@ -13,7 +15,8 @@ pub(super) struct RunSpec {
     pub(super) name: String,
     /// The drive frequency \[rad/s\], with its place in the campaign.
     pub(super) omega_rad_s: Option<(f64, ConfigPlace)>,
-    pub(super) skip_s: f64,
+    /// Times that are left out.
+    pub(super) trim: Trim,
     /// The log of the motor, if it has one of its own.
     pub(super) motor_file: Option<PathBuf>,
     /// The logs of tips that have one of their own, in the order of the tips.
@@ -35,7 +38,7 @@ impl RunSpec {
             file: log.to_owned(),
             name,
             omega_rad_s: None,
-            skip_s: skip_s.unwrap_or(0.0),
+            trim: Trim { skip_s: skip_s.unwrap_or(0.0), ..Trim::default() },
             motor_file: None,
             tip_files: Vec::new(),
             part: None,
@@ -53,7 +56,17 @@ pub(super) fn runs(value: &Value<'_>, skip_s: Option<f64>) -> Result<Vec<RunSpec
 
 fn run(value: &Value<'_>, skip_s: Option<f64>) -> Result<RunSpec, ConfigError> {
     let table = value.table()?;
-    table.only(&["file", "name", "omega_rad_s", "frequency", "skip", "motor_file", "tip_files"])?;
+    table.only(&[
+        "file",
+        "name",
+        "omega_rad_s",
+        "frequency",
+        "skip",
+        "until",
+        "leave_out",
+        "motor_file",
+        "tip_files",
+    ])?;
     let file = table.need("file")?.text()?;
     let name = table.get("name").map(|v| v.text()).transpose()?.unwrap_or(file);
     let omega_rad_s = match table.one_of(&["omega_rad_s", "frequency"])? {
@@ -64,7 +77,7 @@ fn run(value: &Value<'_>, skip_s: Option<f64>) -> Result<RunSpec, ConfigError> {
         },
         Some((_, value)) => Some((value.positive(Dimension::RATE)?, value.place())),
     };
-    let own_skip = table.get("skip").map(|v| v.not_negative(Dimension::TIME)).transpose()?;
+    let trim = trim(&table, skip_s)?;
     let motor_file = table.get("motor_file").map(|v| v.text()).transpose()?;
     let tip_files = table.get("tip_files").map_or_else(Vec::new, |value| value.one_or_list());
     let tip_files =
@@ -73,9 +86,30 @@ fn run(value: &Value<'_>, skip_s: Option<f64>) -> Result<RunSpec, ConfigError> {
         file: PathBuf::from(file),
         name: name.to_owned(),
         omega_rad_s,
-        skip_s: own_skip.or(skip_s).unwrap_or(0.0),
+        trim,
         motor_file: motor_file.map(PathBuf::from),
         tip_files,
         part: None,
     })
+}
+
+/// Which times of the log are left out.
+fn trim(table: &Table<'_>, skip_s: Option<f64>) -> Result<Trim, ConfigError> {
+    let skip = table.get("skip").map(|v| v.not_negative(Dimension::TIME)).transpose()?;
+    let until_s = table.get("until").map(|v| v.positive(Dimension::TIME)).transpose()?;
+    let mut left_out_s = Vec::new();
+    if let Some(all) = table.get("leave_out") {
+        const STRETCHES: &str = "a list of stretches, each from and to: [[\"3 s\", \"4.5 s\"]]";
+        for stretch in all.list(STRETCHES)? {
+            let ends = stretch.list(STRETCHES)?;
+            let [from, to] = ends.as_slice() else { return Err(all.kind(STRETCHES)) };
+            let from_s = from.not_negative(Dimension::TIME)?;
+            let to_s = to.positive(Dimension::TIME)?;
+            if to_s <= from_s {
+                return Err(all.kind(STRETCHES));
+            }
+            left_out_s.push([from_s, to_s]);
+        }
+    }
+    Ok(Trim { skip_s: skip.or(skip_s).unwrap_or(0.0), until_s, left_out_s })
 }

@@ -57,6 +57,21 @@ pub struct Description {
     pub skip: Option<String>,
     /// Length of the window of the regression, as in "0.3 s"; chosen from the data if absent.
     pub window: Option<String>,
+    /// What of single logs is left out.
+    pub trims: Vec<LogTrim>,
+}
+
+/// What of a log is left out. Times count from its first stamp.
+#[derive(Debug, Clone, Default, PartialEq, Eq)]
+pub struct LogTrim {
+    /// The log, as it is given.
+    pub file: PathBuf,
+    /// Its beginning, as in "1 s".
+    pub skip: Option<String>,
+    /// The time after which everything is left out.
+    pub until: Option<String>,
+    /// Stretches, each from and to.
+    pub leave_out: Vec<[String; 2]>,
 }
 
 /// A `campaign.toml`, with what was taken from the log.
@@ -147,7 +162,7 @@ impl CampaignDraft {
             lines.extend(said.skip.iter().map(|skip| key("skip", skip)));
             lines.extend(said.window.iter().map(|window| key("window", window)));
         }
-        lines.extend(files.iter().map(|file| run(file, files)));
+        lines.extend(files.iter().map(|file| run(file, files, &said.trims)));
         Ok(Self { lines, file: log.file.display().to_string() })
     }
 
@@ -207,12 +222,23 @@ fn one_line(text: &str) -> String {
 }
 
 /// The table of a run, named as its file if no other file has that name.
-fn run(file: &Path, files: &[PathBuf]) -> Line {
+fn run(file: &Path, files: &[PathBuf], trims: &[LogTrim]) -> Line {
     let mut text = format!("\n[[runs]]\nfile = {}", quoted(&file.display().to_string()));
     let name = LogPath::of(file).name();
     let only = files.iter().filter(|f| LogPath::of(f).name() == name).count() == 1;
     if only && name != file.display().to_string() {
         let _ = write!(text, "\nname = {}", quoted(&name));
+    }
+    if let Some(trim) = trims.iter().find(|trim| trim.file == file) {
+        for (key, time) in [("skip", &trim.skip), ("until", &trim.until)] {
+            let _ = time.as_ref().map(|time| write!(text, "\n{key} = {}", toml_value(time)));
+        }
+        if !trim.leave_out.is_empty() {
+            let stretch =
+                |[from, to]: &[String; 2]| format!("[{}, {}]", toml_value(from), toml_value(to));
+            let all: Vec<String> = trim.leave_out.iter().map(stretch).collect();
+            let _ = write!(text, "\nleave_out = [{}]", all.join(", "));
+        }
     }
     Line::said(text)
 }

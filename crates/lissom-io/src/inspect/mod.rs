@@ -22,7 +22,7 @@ mod words;
 
 pub use channel_facts::ChannelFacts;
 pub use clock_facts::ClockFacts;
-pub use draft::{CampaignDraft, Description};
+pub use draft::{CampaignDraft, Description, LogTrim};
 pub use draft_error::DraftError;
 pub use inspected_channel::InspectedChannel;
 pub use inspection::{Inspection, inspect, inspect_data, inspect_with};

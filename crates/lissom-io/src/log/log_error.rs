@@ -338,13 +338,11 @@ pub enum LogError {
         /// The sample time \[s\].
         found_s: f64,
     },
-    /// Skipping the beginning leaves no samples.
-    #[error("{file}: skipping {skip_s} s leaves {left} rows of a log of {length_s} s")]
-    AllSkipped {
+    /// Almost all samples are left out.
+    #[error("{file}: leaving out what is asked for leaves {left} rows of a log of {length_s} s")]
+    AllLeftOut {
         /// The file.
         file: String,
-        /// Time to skip \[s\].
-        skip_s: f64,
         /// Length of the log \[s\].
         length_s: f64,
         /// Rows that remain.
@@ -491,7 +489,7 @@ impl LogError {
             Self::AllPiecesShort { .. } => {
                 "log without interruption; if the stamps are too coarse for the sampling, give `sample_time` instead of `time`".to_owned()
             }
-            Self::AllSkipped { .. } => "give a smaller `skip`".to_owned(),
+            Self::AllLeftOut { .. } => "leave out less: see `skip`, `until` and `leave_out`".to_owned(),
             Self::Speed { ratio, correlation, .. } => of_speed(*ratio, *correlation).to_owned(),
         })
     }

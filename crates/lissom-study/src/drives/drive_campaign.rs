@@ -4,7 +4,7 @@ use lissom::arm::Arm;
 use lissom::beam::{Beam, BeamError, Damping, LumpedBeam, Span};
 use lissom::drive::{Coulomb, DriveError, DryFriction, Falloff, Motor};
 use lissom::load::GravityLoad;
-use lissom::record::clock::{ClockError, LogRows, even_parts};
+use lissom::record::clock::{ClockError, LogRows, Trim, even_parts};
 use lissom::record::{Campaign, Hold, RecordError, Run};
 use lissom::rig::{
     CurrentReading, CurrentSensor, Delay, FrictionWander, Instruments, JointFriction, LateStamps,
@@ -265,7 +265,7 @@ fn read(stamps: &[f64], run: &Run, hold: Hold, late: bool) -> Result<Vec<Run>, U
         motor: run.motor().to_vec(),
         tips: vec![],
     };
-    let parts = even_parts(rows, 0.0, LEAST_ROWS)?.parts;
+    let parts = even_parts(rows, &Trim::default(), LEAST_ROWS)?.parts;
     let count = parts.len();
     let named = |k: usize| match count {
         1 => run.name().to_owned(),

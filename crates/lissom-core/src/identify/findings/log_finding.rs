@@ -144,6 +144,11 @@ pub enum LogFinding {
         /// Time left out \[s\].
         length_s: f64,
     },
+    /// Stretches are left out, as the campaign asks.
+    LeftOut {
+        /// Their number, the end of the log included.
+        stretches: usize,
+    },
 }
 
 impl From<&Note> for LogFinding {
@@ -174,6 +179,7 @@ impl From<&Note> for LogFinding {
             Note::TurnsRemoved { count } => Self::TurnsRemoved { count },
             Note::Thinned { factor } => Self::Thinned { factor },
             Note::HeadSkipped { seconds } => Self::HeadSkipped { length_s: seconds },
+            Note::LeftOut { stretches } => Self::LeftOut { stretches },
         }
     }
 }
@@ -246,6 +252,12 @@ impl fmt::Display for LogFinding {
             }
             Self::HeadSkipped { length_s } => {
                 write!(f, "the first {length_s} s are left out, as the campaign asks")
+            }
+            Self::LeftOut { stretches: 1 } => {
+                write!(f, "a stretch of the log is left out, as the campaign asks")
+            }
+            Self::LeftOut { stretches } => {
+                write!(f, "{stretches} stretches of the log are left out, as the campaign asks")
             }
         }
     }
@@ -403,7 +415,8 @@ impl Describe for LogFinding {
             | Self::SpeedIntegrated
             | Self::TurnsRemoved { .. }
             | Self::Thinned { .. }
-            | Self::HeadSkipped { .. } => Severity::Info,
+            | Self::HeadSkipped { .. }
+            | Self::LeftOut { .. } => Severity::Info,
         }
     }
 
@@ -434,7 +447,8 @@ impl Describe for LogFinding {
             | Self::SpeedIntegrated
             | Self::TurnsRemoved { .. }
             | Self::Thinned { .. }
-            | Self::HeadSkipped { .. } => Vec::new(),
+            | Self::HeadSkipped { .. }
+            | Self::LeftOut { .. } => Vec::new(),
         }
     }
 
@@ -482,7 +496,7 @@ impl Describe for LogFinding {
                 "nothing to do; you can also give separate logs as separate runs"
             }
             Self::Thinned { .. } => "log fewer samples, or cut the log into several runs",
-            Self::HeadSkipped { .. } => "",
+            Self::HeadSkipped { .. } | Self::LeftOut { .. } => "",
         }
     }
 }

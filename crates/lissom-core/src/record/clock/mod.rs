@@ -29,8 +29,10 @@ mod tally;
 mod tests;
 pub(crate) mod thresholds;
 mod time_grid;
+mod trim;
 
 pub use part::{EvenPart, LogRows};
+pub use trim::Trim;
 
 use thiserror::Error;
 
@@ -72,13 +74,13 @@ pub enum ClockError {
 
 /// Converts the rows of a log to parts with even samples.
 ///
-/// The first `skip_s` seconds are left out. If the log is cut, parts with fewer than `least` samples are left out. All
-/// channels must have the same length.
+/// What `trim` says is left out; where that is between other rows, the log is cut. If the log is cut, parts with fewer than
+/// `least` samples are left out. All channels must have the same length.
 ///
 /// # Errors
 /// [`ClockError::NotIncreasing`] if time stands still, goes back a little, or rows are out of order;
 /// [`ClockError::NothingLeft`] if fewer than two rows remain.
-pub fn even_parts(mut log: LogRows, skip_s: f64, least: usize) -> Result<EvenLog, ClockError> {
+pub fn even_parts(mut log: LogRows, trim: &Trim, least: usize) -> Result<EvenLog, ClockError> {
     let mut tally = Tally::default();
     let restarts = restarts::join(&mut log.stamps_s, &log.motor)
         .map_err(|row| ClockError::NotIncreasing { row })?;
@@ -87,15 +89,19 @@ pub fn even_parts(mut log: LogRows, skip_s: f64, least: usize) -> Result<EvenLog
         let (joined, cut, at_s) = (restarts.joined, cuts.len(), restarts.at_s);
         tally.restart = Some(Note::ClockRestart { joined, cut, at_s });
     }
-    skip(&mut log, &mut cuts, skip_s)?;
+    trim.apply(&mut log, &mut cuts)?;
     remove_repeated(&mut log, &mut cuts, &mut tally);
     let mut parts = Vec::new();
     if let (Some(sample_time_s), None) = (log.sample_time_s, &tally.repeated) {
-        let base = TimeBase::uniform(log.stamps_s[0], sample_time_s);
-        parts.push(Part { rows: 0..log.stamps_s.len(), base, sampling: Sampling::AsLogged });
-        return Ok(finish(log, parts, tally, 0));
+        // Rows without stamps have no gaps of their own.
+        let bounds = bounds(&cuts, log.stamps_s.len());
+        parts.extend(bounds.windows(2).map(|bound| {
+            let base = TimeBase::uniform(log.stamps_s[bound[0]], sample_time_s);
+            Part { rows: bound[0]..bound[1], base, sampling: Sampling::AsLogged }
+        }));
+        return Ok(finish(log, parts, tally, least));
     }
-    let bounds: Vec<usize> = [0].into_iter().chain(cuts).chain([log.stamps_s.len()]).collect();
+    let bounds = bounds(&cuts, log.stamps_s.len());
     for bound in bounds.windows(2) {
         let stretch = bound[0]..bound[1];
         let stamps_s = &log.stamps_s[stretch.clone()];
@@ -120,6 +126,11 @@ pub fn even_parts(mut log: LogRows, skip_s: f64, least: usize) -> Result<EvenLog
     Ok(finish(log, parts, tally, least))
 }
 
+/// Ends of the stretches between cuts.
+fn bounds(cuts: &[usize], rows: usize) -> Vec<usize> {
+    [0].into_iter().chain(cuts.iter().copied()).chain([rows]).collect()
+}
+
 /// Samples of the parts that are long enough.
 fn finish(mut log: LogRows, parts: Vec<Part>, mut tally: Tally, least: usize) -> EvenLog {
     let cuts = parts.len().saturating_sub(1);
@@ -142,29 +153,6 @@ fn finish(mut log: LogRows, parts: Vec<Part>, mut tally: Tally, least: usize) ->
         first.notes = tally.notes();
     }
     found
-}
-
-/// Removes the first seconds of a log.
-fn skip(log: &mut LogRows, cuts: &mut Vec<usize>, skip_s: f64) -> Result<(), ClockError> {
-    let stretch = &log.stamps_s[..cuts.first().copied().unwrap_or(log.stamps_s.len())];
-    let start_s = stretch.first().copied().unwrap_or(0.0);
-    let first = stretch.partition_point(|stamp| stamp - start_s < skip_s);
-    let left = log.stamps_s.len() - first;
-    if left < 2 {
-        let length_s = log.stamps_s.last().map_or(0.0, |end| end - start_s);
-        return Err(ClockError::NothingLeft { left, length_s });
-    }
-    if first > 0 {
-        let channels = [&mut log.stamps_s, &mut log.command, &mut log.motor];
-        for channel in channels.into_iter().chain(&mut log.tips) {
-            channel.drain(..first);
-        }
-        for cut in cuts.iter_mut() {
-            *cut -= first;
-        }
-        cuts.retain(|cut| *cut > 0);
-    }
-    Ok(())
 }
 
 /// Removes readings that are repeated.

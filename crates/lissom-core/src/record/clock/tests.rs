@@ -49,7 +49,7 @@ const INTERPOLATED: f64 = 4e-4;
 fn even_stamps_are_used_as_they_are() {
     let log = joint();
     let all: Vec<usize> = (0..20_000).collect();
-    let even = even_parts(rows(&log, &all, |k| log.time_s[k]), 0.0, 50).unwrap();
+    let even = even_parts(rows(&log, &all, |k| log.time_s[k]), &Trim::default(), 50).unwrap();
     let [part] = even.parts.as_slice() else { panic!("{} parts", even.parts.len()) };
     assert_eq!(part.motor, log.angle);
     assert_eq!(
@@ -70,7 +70,7 @@ fn stamps_that_agree_with_the_motion_are_used() {
     while kept.last().unwrap() + 6 < 20_000 {
         kept.push(kept.last().unwrap() + [5, 5, 6][kept.len() % 3]);
     }
-    let even = even_parts(rows(&log, &kept, |k| log.time_s[k]), 0.0, 50).unwrap();
+    let even = even_parts(rows(&log, &kept, |k| log.time_s[k]), &Trim::default(), 50).unwrap();
     let [part] = even.parts.as_slice() else { panic!("{} parts", even.parts.len()) };
     assert!((part.time.sample_time_s - 0.032 / 3.0).abs() < 1e-5, "{:?}", part.time);
     let [Note::Resampled { agreement: Some(ratio), error_share, .. }] = part.notes[..] else {
@@ -90,7 +90,7 @@ fn late_stamps_are_counted() {
     for k in 1..stamps.len() {
         stamps[k] = stamps[k].max(stamps[k - 1] + 1e-6);
     }
-    let even = even_parts(rows(&log, &all, |k| stamps[k]), 0.0, 50).unwrap();
+    let even = even_parts(rows(&log, &all, |k| stamps[k]), &Trim::default(), 50).unwrap();
     let [part] = even.parts.as_slice() else { panic!("{} parts", even.parts.len()) };
     assert!((part.time.sample_time_s / 2e-3 - 1.0).abs() < 1e-4, "{:?}", part.time);
     assert_eq!(part.motor, log.angle);
@@ -102,7 +102,8 @@ fn a_counted_log_keeps_its_pause() {
     let log = joint();
     let all: Vec<usize> = (0..20_000).filter(|k| !(9000..9400).contains(k)).collect();
     let even =
-        even_parts(rows(&log, &all, |k| log.time_s[k] + 1e-3 * uniform(k)), 0.0, 50).unwrap();
+        even_parts(rows(&log, &all, |k| log.time_s[k] + 1e-3 * uniform(k)), &Trim::default(), 50)
+            .unwrap();
     assert_eq!(even.parts.iter().map(|part| part.motor.len()).collect::<Vec<_>>(), [9000, 10_600]);
     let notes = &even.parts[0].notes;
     assert!(
@@ -122,7 +123,7 @@ fn a_sample_time_that_drifts_is_followed() {
         let drift = 1.5 * (1.0 + (kept.len() as f64 * 6e-4).sin());
         kept.push(kept.last().unwrap() + 50 + drift.round() as usize);
     }
-    let even = even_parts(rows(&fine, &kept, |k| fine.time_s[k]), 0.0, 50).unwrap();
+    let even = even_parts(rows(&fine, &kept, |k| fine.time_s[k]), &Trim::default(), 50).unwrap();
     let [part] = even.parts.as_slice() else { panic!("{} parts", even.parts.len()) };
     assert!(matches!(part.notes[..], [Note::Resampled { .. }]), "{:?}", part.notes);
     let samples = fine.time_s.iter().step_by(50).zip(fine.angle.iter().step_by(50));
@@ -135,7 +136,7 @@ fn lost_rows_are_filled_in() {
     let log = joint();
     let kept: Vec<usize> =
         (0..20_000).filter(|&k| k == 0 || k == 19_999 || uniform(k) > 0.01).collect();
-    let even = even_parts(rows(&log, &kept, |k| log.time_s[k]), 0.0, 50).unwrap();
+    let even = even_parts(rows(&log, &kept, |k| log.time_s[k]), &Trim::default(), 50).unwrap();
     let [part] = even.parts.as_slice() else { panic!("{} parts", even.parts.len()) };
     assert_eq!(part.motor.len(), 20_000);
     let lost = 20_000 - kept.len();
@@ -152,7 +153,7 @@ fn long_gaps_cut_and_are_one_note() {
     let log = joint();
     let kept: Vec<usize> =
         (0..20_000).filter(|k| k % 1000 < 900 && !(5010..5900).contains(k)).collect();
-    let even = even_parts(rows(&log, &kept, |k| log.time_s[k]), 0.0, 50).unwrap();
+    let even = even_parts(rows(&log, &kept, |k| log.time_s[k]), &Trim::default(), 50).unwrap();
     assert_eq!((even.cuts, even.parts.len()), (19, 19));
     let notes = &even.parts[0].notes;
     let [
@@ -170,7 +171,8 @@ fn long_gaps_cut_and_are_one_note() {
 fn a_clock_that_starts_again_goes_on_with_the_motion() {
     let log = joint();
     let all: Vec<usize> = (0..20_000).collect();
-    let even = even_parts(rows(&log, &all, |k| log.time_s[k % 2500]), 0.0, 50).unwrap();
+    let even =
+        even_parts(rows(&log, &all, |k| log.time_s[k % 2500]), &Trim::default(), 50).unwrap();
     let [part] = even.parts.as_slice() else { panic!("{} parts", even.parts.len()) };
     assert_eq!(part.motor, log.angle);
     assert!(
@@ -185,7 +187,8 @@ fn two_recordings_in_one_log_are_cut() {
     let log = joint();
     let kept: Vec<usize> = (0..5000).chain(8000..12_000).collect();
     let first = |k: usize| if k < 5000 { 0 } else { 8000 };
-    let even = even_parts(rows(&log, &kept, |k| log.time_s[k - first(k)]), 0.0, 50).unwrap();
+    let even =
+        even_parts(rows(&log, &kept, |k| log.time_s[k - first(k)]), &Trim::default(), 50).unwrap();
     assert_eq!(even.parts.iter().map(|part| part.motor.len()).collect::<Vec<_>>(), [5000, 4000]);
     let notes = &even.parts[0].notes;
     assert!(matches!(notes[..], [Note::ClockRestart { joined: 0, cut: 1, .. }]), "{notes:?}");
@@ -196,12 +199,12 @@ fn rows_out_of_order_are_refused() {
     let log = joint();
     let mut kept: Vec<usize> = (0..1000).collect();
     kept.swap(500, 501);
-    let result = even_parts(rows(&log, &kept, |k| log.time_s[k]), 0.0, 50);
+    let result = even_parts(rows(&log, &kept, |k| log.time_s[k]), &Trim::default(), 50);
     assert_eq!(result, Err(ClockError::NotIncreasing { row: 501 }));
     kept.swap(500, 501);
     let far = kept.remove(900);
     kept.insert(200, far);
-    let result = even_parts(rows(&log, &kept, |k| log.time_s[k]), 0.0, 50);
+    let result = even_parts(rows(&log, &kept, |k| log.time_s[k]), &Trim::default(), 50);
     assert_eq!(result, Err(ClockError::NotIncreasing { row: 201 }));
 }
 
@@ -209,7 +212,7 @@ fn rows_out_of_order_are_refused() {
 fn another_sample_time_makes_another_run() {
     let log = joint();
     let kept: Vec<usize> = (0..10_000).step_by(2).chain(10_000..20_000).collect();
-    let even = even_parts(rows(&log, &kept, |k| log.time_s[k]), 0.0, 50).unwrap();
+    let even = even_parts(rows(&log, &kept, |k| log.time_s[k]), &Trim::default(), 50).unwrap();
     let times: Vec<f64> = even.parts.iter().map(|part| part.time.sample_time_s).collect();
     assert_eq!(times, [4e-3, 2e-3]);
     let samples: usize = even.parts.iter().map(|part| part.motor.len()).sum();
@@ -226,7 +229,7 @@ fn repeated_readings_are_removed() {
     polled.stamps_s = (0..40_000).map(|k| k as f64 * 1e-3).collect();
     let without_stamps = LogRows { sample_time_s: Some(1e-3), ..polled.clone() };
     for polled in [polled, without_stamps] {
-        let even = even_parts(polled, 0.0, 50).unwrap();
+        let even = even_parts(polled, &Trim::default(), 50).unwrap();
         let [part] = even.parts.as_slice() else { panic!("{} parts", even.parts.len()) };
         assert_eq!((part.time.sample_time_s, part.motor.len()), (2e-3, 20_000));
         assert!(
@@ -243,7 +246,7 @@ fn readings_that_are_repeated_two_or_three_times_are_counted() {
     let kept: Vec<usize> = (0..40_000).map(|k| k * 2 / 5).collect();
     let mut polled = rows(&log, &kept, |_| 0.0);
     polled.stamps_s = (0..40_000).map(|k| k as f64 * 0.8e-3).collect();
-    let even = even_parts(polled, 0.0, 50).unwrap();
+    let even = even_parts(polled, &Trim::default(), 50).unwrap();
     let [part] = even.parts.as_slice() else { panic!("{} parts", even.parts.len()) };
     assert!((part.time.sample_time_s / 2e-3 - 1.0).abs() < 1e-3, "{:?}", part.time);
     assert_eq!(part.motor.len(), 16_000);
@@ -261,7 +264,7 @@ fn a_coarse_encoder_is_not_a_repeated_reading() {
     }
     let constant = LogRows { command: vec![1.0; 20_000], ..coarse.clone() };
     for coarse in [coarse, constant] {
-        let even = even_parts(coarse, 0.0, 50).unwrap();
+        let even = even_parts(coarse, &Trim::default(), 50).unwrap();
         assert_eq!((even.parts[0].motor.len(), even.parts[0].notes.len()), (20_000, 0));
     }
 }
@@ -272,7 +275,7 @@ fn the_even_grid_is_used_where_the_encoder_hides_the_difference() {
     let all: Vec<usize> = (0..20_000).collect();
     let mut coarse = rows(&log, &all, |k| log.time_s[k] + 4e-4 * uniform(k));
     coarse.motor.iter_mut().for_each(|q| *q = (*q / 0.05).round() * 0.05);
-    let even = even_parts(coarse, 0.0, 50).unwrap();
+    let even = even_parts(coarse, &Trim::default(), 50).unwrap();
     let [part] = even.parts.as_slice() else { panic!("{} parts", even.parts.len()) };
     assert_eq!((part.motor.len(), part.notes.len()), (20_000, 0));
     assert!((part.time.sample_time_s / 2e-3 - 1.0).abs() < 1e-3, "{:?}", part.time);
@@ -283,10 +286,32 @@ fn the_even_grid_is_used_where_the_encoder_hides_the_difference() {
 fn the_head_is_left_out_after_the_clock_is_continued() {
     let log = joint();
     let all: Vec<usize> = (0..20_000).collect();
-    let even = even_parts(rows(&log, &all, |k| log.time_s[k % 2500]), 6.0, 50).unwrap();
+    let even = even_parts(rows(&log, &all, |k| log.time_s[k % 2500]), &head(6.0), 50).unwrap();
     assert_eq!(even.parts[0].motor, log.angle[3000..]);
-    let nothing = even_parts(rows(&log, &all[..100], |k| log.time_s[k]), 6.0, 50);
+    let nothing = even_parts(rows(&log, &all[..100], |k| log.time_s[k]), &head(6.0), 50);
     assert!(matches!(nothing, Err(ClockError::NothingLeft { left: 0, .. })), "{nothing:?}");
+}
+
+fn head(skip_s: f64) -> Trim {
+    Trim { skip_s, ..Trim::default() }
+}
+
+#[test]
+fn stretches_that_are_left_out_cut_the_log() {
+    let log = joint();
+    let all: Vec<usize> = (0..2500).collect();
+    let trim =
+        Trim { skip_s: 0.099, until_s: Some(4.0), left_out_s: vec![[0.999, 2.001], [3.899, 9.0]] };
+    for sample_time_s in [None, Some(2e-3)] {
+        let rows = LogRows { sample_time_s, ..rows(&log, &all, |k| 5.0 + log.time_s[k]) };
+        let even = even_parts(rows, &trim, 50).unwrap();
+        assert_eq!((even.cuts, even.parts.len()), (1, 2));
+        assert_eq!(even.parts[0].motor, log.angle[50..500]);
+        assert_eq!(even.parts[1].motor, log.angle[1001..1950]);
+    }
+    let nothing = Trim { left_out_s: vec![[0.0, 9.0]], ..Trim::default() };
+    let result = even_parts(rows(&log, &all, |k| log.time_s[k]), &nothing, 50);
+    assert!(matches!(result, Err(ClockError::NothingLeft { left: 0, .. })), "{result:?}");
 }
 
 #[test]
@@ -294,10 +319,10 @@ fn stamps_that_are_no_clock_are_refused() {
     let log = joint();
     let all: Vec<usize> = (0..1000).collect();
     for stamp in [0.0, f64::NAN] {
-        let result = even_parts(rows(&log, &all, |_| stamp), 0.0, 50);
+        let result = even_parts(rows(&log, &all, |_| stamp), &Trim::default(), 50);
         assert_eq!(result, Err(ClockError::NotIncreasing { row: 1 }));
     }
-    let two = even_parts(rows(&log, &[0, 1], |k| log.time_s[k]), 0.0, 50).unwrap();
+    let two = even_parts(rows(&log, &[0, 1], |k| log.time_s[k]), &Trim::default(), 50).unwrap();
     assert_eq!(two.parts[0].motor.len(), 2);
 }
 
@@ -322,7 +347,7 @@ fn a_million_uneven_rows_take_seconds() {
         motor,
         tips: Vec::new(),
     };
-    let even = even_parts(log, 0.0, 50).unwrap();
+    let even = even_parts(log, &Trim::default(), 50).unwrap();
     assert!(even.parts.len() > 90, "{}", even.parts.len());
     assert!(even.parts[0].notes.len() <= 3, "{:?}", even.parts[0].notes);
     assert!(started.elapsed().as_secs_f64() < 20.0, "{:?}", started.elapsed());
@@ -349,7 +374,7 @@ proptest! {
             tips: vec![channel(2)],
             stamps_s: stamps_s.clone(),
         };
-        if let Ok(even) = even_parts(log, skip_s, 5) {
+        if let Ok(even) = even_parts(log, &head(skip_s), 5) {
             for part in even.parts {
                 let n = part.motor.len();
                 prop_assert_eq!((part.command.len(), part.tips[0].len()), (n, n));
