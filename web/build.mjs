@@ -4,7 +4,12 @@ import { readFileSync, writeFileSync } from "node:fs";
 import { build } from "esbuild";
 
 const CHECK = process.argv.includes("--check");
-const TARGETS = [{ entry: "src/page.ts", out: "../crates/lissom-report/src/page/page.js" }];
+const PAGE = "../crates/lissom-report/src/page";
+// A script that stands in a page is named by its hash in the page's policy.
+const TARGETS = [
+  { entry: "src/page.ts", out: `${PAGE}/page.js`, inPage: true },
+  { entry: "src/studio/main.ts", out: "../crates/lissom-studio/src/page/studio.js", inPage: false },
+];
 const NOTICE = "/* uPlot 1.6.32, Copyright (c) 2022 Leon Sorokin, MIT License */\n";
 
 let differs = false;
@@ -16,7 +21,7 @@ const put = (file, text) => {
     }
   } else writeFileSync(file, text);
 };
-for (const { entry, out } of TARGETS) {
+for (const { entry, out, inPage } of TARGETS) {
   const made = await build({
     entryPoints: [entry],
     bundle: true,
@@ -31,8 +36,8 @@ for (const { entry, out } of TARGETS) {
   const code = made.outputFiles[0].text.replaceAll("</script", "<\\/script").replaceAll("]]>", "]]\\u003e");
   const script = `//<![CDATA[\n${NOTICE}${code}//]]>`;
   put(out, script);
-  put(`${out}.sha256`, createHash("sha256").update(script).digest("base64"));
+  if (inPage) put(`${out}.sha256`, createHash("sha256").update(script).digest("base64"));
 }
 const css = readFileSync("node_modules/uplot/dist/uPlot.min.css", "utf8");
-put("../crates/lissom-report/src/page/uplot.css", css.trimEnd() + "\n");
+put(`${PAGE}/uplot.css`, css.trimEnd() + "\n");
 process.exit(differs ? 1 : 0);

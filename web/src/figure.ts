@@ -16,10 +16,15 @@ const [ALONE, STACKED] = [300, 210];
 const LABELS = 48;
 /** Smallest part of the axis that can be shown. */
 const ZOOM_MOST = 1e-6;
+/** Time for which an axis must rest before its points are asked for again [ms]. */
+const REST_MS = 40;
 let figures = 0;
 
+/** Gives the points of a part of the horizontal axis, for so many pixels. */
+export type Refine = (range: Range, pixels: number) => Promise<FigureData>;
+
 export class Figure {
-  private readonly data: FigureData;
+  private data: FigureData;
   private readonly choice: UnitChoice;
   private readonly legend: Legend;
   private readonly frames = document.createElement("div");
@@ -35,8 +40,21 @@ export class Figure {
   /** What ends with the figure. */
   private readonly ends: (() => void)[] = [];
 
-  /** `picture` is the same figure as SVG. */
-  constructor(place: HTMLElement, data: FigureData, choice: UnitChoice, picture: Element | null) {
+  private timer = 0;
+  private knowsFull = false;
+  private asked = 0;
+
+  /**
+   * `picture` is the same figure as SVG. With `refine` the points are those of the part that is shown; the horizontal axis
+   * must then have one unit.
+   */
+  constructor(
+    place: HTMLElement,
+    data: FigureData,
+    choice: UnitChoice,
+    picture: Element | null,
+    private readonly refine: Refine | null = null,
+  ) {
     [this.data, this.choice] = [data, choice];
     this.legend = new Legend(entries(data), () => this.restore());
     this.reset = this.button("All", "show the whole axis (double click, or key 0)", () => this.show(this.full));
@@ -91,9 +109,35 @@ export class Figure {
 
   /** Ends the figure: its place is free for another one. */
   end(): void {
+    clearTimeout(this.timer);
+    this.asked++;
     for (const end of this.ends) end();
     for (const plot of this.plots) plot.destroy();
     this.plots = [];
+  }
+
+  /** The part of the horizontal axis that is shown. */
+  shownRange(): Range {
+    return this.shown;
+  }
+
+  /** Takes other points of the same series, and draws them. */
+  private take(data: FigureData): void {
+    this.data = data;
+    this.views = this.viewsOf(data);
+    this.fit();
+  }
+
+  /** Asks for the points of what is shown, once the axis rests. */
+  private refineSoon(): void {
+    const { refine } = this;
+    if (!refine) return;
+    clearTimeout(this.timer);
+    this.timer = window.setTimeout(async () => {
+      const asked = ++this.asked;
+      const data = await refine(this.shown, Math.ceil(this.width));
+      if (asked === this.asked) this.take(data);
+    }, REST_MS);
   }
 
   private button(text: string, title: string, action: () => void): HTMLButtonElement {
@@ -144,9 +188,24 @@ export class Figure {
     const { units } = this.choice;
     const x = shownAxis(this.data.x, units);
     this.log = x.log;
-    const convertX = (value: number) => (this.data.x.quantity === "frequency" && units.frequency === "Hz" ? value / (2 * Math.PI) : value);
-    this.views = this.data.panels.map((panel) => ({
-      traces: panel.traces.map((trace) => shownTrace(trace, this.data.x, panel, units)),
+    this.views = this.viewsOf(this.data);
+    const lines = this.data.panels.every((panel) =>
+      panel.traces.every((trace) => trace.style !== "points" && trace.style !== "columns"),
+    );
+    const all = rangeX(this.views, this.log);
+    // Points that are asked for later are those of a part.
+    if (!this.refine || !this.knowsFull) this.full = x.range ?? padded(all, this.log, lines && !this.log ? 0 : 0.04);
+    this.knowsFull = true;
+    this.shown = this.whole(part);
+    const last = this.views.length - 1;
+    this.plots = this.views.map((_, k) => this.plot(k, k === last));
+  }
+
+  private viewsOf(data: FigureData): PanelView[] {
+    const { units } = this.choice;
+    const convertX = (value: number) => (data.x.quantity === "frequency" && units.frequency === "Hz" ? value / (2 * Math.PI) : value);
+    return data.panels.map((panel) => ({
+      traces: panel.traces.map((trace) => shownTrace(trace, data.x, panel, units)),
       bands: panel.bands,
       regions: panel.regions,
       convertX,
@@ -154,14 +213,6 @@ export class Figure {
         panel.y.quantity === "decibels" && units.magnitude === "ratio" ? 10 ** (value / 20) : value,
       isShown: (label: string, role: string) => this.legend.isShown(label, role),
     }));
-    const lines = this.data.panels.every((panel) =>
-      panel.traces.every((trace) => trace.style !== "points" && trace.style !== "columns"),
-    );
-    const all = rangeX(this.views, this.log);
-    this.full = x.range ?? padded(all, this.log, lines && !this.log ? 0 : 0.04);
-    this.shown = this.whole(part);
-    const last = this.views.length - 1;
-    this.plots = this.views.map((view, k) => this.plot(view, k, k === last));
   }
 
   /** Which part of the axis is shown, from 0 to 1. */
@@ -179,11 +230,11 @@ export class Figure {
     return from <= 0 && to >= 1 ? this.full : [at(Math.max(from, 0)), at(Math.min(to, 1))];
   }
 
-  private plot(view: PanelView, k: number, isLast: boolean): uPlot {
+  private plot(k: number, isLast: boolean): uPlot {
     const palette = colours();
     const { units } = this.choice;
-    const panel = this.data.panels[k];
-    if (!panel) throw new Error("no panel");
+    const [panel, view] = [this.data.panels[k], this.views[k]];
+    if (!panel || !view) throw new Error("no panel");
     const y = shownAxis(panel.y, units);
     const height = this.views.length === 1 ? ALONE : STACKED;
     const ticks = (_: uPlot, splits: (number | null)[]) => splits.map((value) => (value == null ? "" : digits(value)));
@@ -210,7 +261,7 @@ export class Figure {
       ],
       padding: [8, 14, 0, 0],
       hooks: {
-        draw: [(u) => draw(u, view, palette)],
+        draw: [(u) => draw(u, this.views[k] ?? view, palette)],
         setScale: [(u, key) => this.scaled(u, key)],
         setCursor: [(u) => this.pointed(u)],
       },
@@ -227,12 +278,18 @@ export class Figure {
   }
 
   /** Shows a part of the horizontal axis in all panels. */
-  private show(range: Range): void {
+  show(range: Range): void {
     const [low, high] = this.full;
     const span = this.log ? Math.log10(high / low) : high - low;
     const wanted = this.log ? Math.log10(range[1] / range[0]) : range[1] - range[0];
     if (!(wanted > ZOOM_MOST * span)) return;
     this.shown = [Math.max(range[0], low), Math.min(range[1], high)];
+    this.fit();
+    this.refineSoon();
+  }
+
+  /** Fits the vertical axes to what is shown. */
+  private fit(): void {
     this.plots.forEach((plot, k) => {
       const [view, panel] = [this.views[k], this.data.panels[k]];
       if (!view || !panel) return;

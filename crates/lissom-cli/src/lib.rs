@@ -18,6 +18,8 @@ use clap::Parser as _;
 use crate::args::command_line::{Cli, Command};
 #[cfg(feature = "fleet")]
 use crate::commands::fleet_command;
+#[cfg(feature = "studio")]
+use crate::commands::studio_command;
 use crate::commands::{
     check_command, compare_command, completions_command, demo, equivalent, export_command,
     identify_command, init_command, inspect_command, man_command, model_command, payload_command,
@@ -36,6 +38,8 @@ pub fn run(arguments: impl IntoIterator<Item = OsString>, own: &[OsString]) -> u
         Command::Inspect(args) => inspect_command::run(&args),
         Command::Init(args) => init_command::run(&args),
         Command::Identify(args) => identify_command::run(&args),
+        #[cfg(feature = "studio")]
+        Command::Studio(args) => studio_command::run(&args),
         Command::Validate(args) => validate_command::run(&args),
         Command::Check(args) => check_command::run(&args),
         #[cfg(feature = "fleet")]

@@ -19,6 +19,8 @@ use super::model_args::ModelArgs;
 use super::payload_args::PayloadArgs;
 use super::plan_args::PlanArgs;
 use super::rig_args::RigArgs;
+#[cfg(feature = "studio")]
+use super::studio_args::StudioArgs;
 use super::thresholds_args::ThresholdsArgs;
 use super::validate_args::ValidateArgs;
 
@@ -49,6 +51,9 @@ pub(crate) enum Command {
     Inspect(InspectArgs),
     /// Write a campaign.toml for logs, with comments
     Init(InitArgs),
+    /// Open logs, identify and see results in your browser
+    #[cfg(feature = "studio")]
+    Studio(StudioArgs),
     /// Identify friction, inertia, coupling, modes and frequency responses from logs
     Identify(IdentifyArgs),
     /// Check a result: predict a log that was not used for it

@@ -21,5 +21,7 @@ pub(crate) mod plan_args;
 pub(crate) mod positive_time;
 pub(crate) mod rig_args;
 pub(crate) mod stdout_name;
+#[cfg(feature = "studio")]
+pub(crate) mod studio_args;
 pub(crate) mod thresholds_args;
 pub(crate) mod validate_args;

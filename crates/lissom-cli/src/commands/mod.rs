@@ -19,5 +19,7 @@ pub(crate) mod payload_command;
 pub(crate) mod plan;
 pub(crate) mod report_figures;
 pub(crate) mod rig;
+#[cfg(feature = "studio")]
+pub(crate) mod studio_command;
 pub(crate) mod thresholds_command;
 pub(crate) mod validate_command;

@@ -38,6 +38,9 @@ pub(crate) enum Failure {
     #[cfg(feature = "fleet")]
     #[error(transparent)]
     Fleet(#[from] lissom_fleet::FleetError),
+    #[cfg(feature = "studio")]
+    #[error(transparent)]
+    Studio(#[from] lissom_studio::StudioError),
     /// A request that cannot be fulfilled, with a hint.
     #[error("{0}")]
     Asked(String, &'static str),
@@ -82,6 +85,8 @@ impl Failure {
             Self::Write(error) => error.hint(),
             #[cfg(feature = "fleet")]
             Self::Fleet(error) => error.hint(),
+            #[cfg(feature = "studio")]
+            Self::Studio(error) => error.hint().map(str::to_owned),
             Self::NoResult(lissom_io::Error::Result(
                 ResultError::Read { .. } | ResultError::Json { .. } | ResultError::NoResult { .. },
             )) => Some("give files that `lissom identify CAMPAIGN --json FILE` wrote".to_owned()),

@@ -1,0 +1,121 @@
+//! The state of the running application.
+
+use std::path::PathBuf;
+use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
+
+use lissom_formats::ReadOptions;
+
+use crate::access::Access;
+use crate::job::Job;
+use crate::log_cache::{CachedLog, LogCache};
+use crate::problem::Problem;
+use crate::session::{LogEntry, Session};
+use crate::state_folder::StateFolder;
+
+/// What all requests share.
+pub(crate) type Shared = Arc<App>;
+
+/// The running application.
+#[derive(Debug)]
+pub(crate) struct App {
+    pub(crate) access: Access,
+    pub(crate) folder: StateFolder,
+    session: Mutex<Session>,
+    pub(crate) cache: LogCache,
+    job: Mutex<Option<Arc<Job>>>,
+    pub(crate) port: u16,
+    /// Most bytes of all uploads together.
+    pub(crate) quota_bytes: u64,
+}
+
+impl App {
+    pub(crate) fn new(folder: StateFolder, session: Session, port: u16, quota_bytes: u64) -> Self {
+        Self {
+            access: Access::default(),
+            folder,
+            session: Mutex::new(session),
+            cache: LogCache::default(),
+            job: Mutex::new(None),
+            port,
+            quota_bytes,
+        }
+    }
+
+    /// A copy of the session as it is now.
+    pub(crate) fn session(&self) -> Session {
+        self.locked().clone()
+    }
+
+    fn locked(&self) -> MutexGuard<'_, Session> {
+        self.session.lock().unwrap_or_else(PoisonError::into_inner)
+    }
+
+    /// Changes logs or setup, if the page knows the session as it is.
+    pub(crate) fn change<T>(
+        &self,
+        revision: u64,
+        change: impl FnOnce(&mut Session) -> Result<T, Problem>,
+    ) -> Result<T, Problem> {
+        let mut session = self.locked();
+        if session.revision != revision {
+            return Err(Problem::conflict(
+                "another page has changed this session meanwhile",
+                "this page shows the session as it is now; make your change again",
+            ));
+        }
+        let mut changed = session.clone();
+        let made = change(&mut changed)?;
+        changed.revision += 1;
+        self.folder.write(&changed)?;
+        *session = changed;
+        Ok(made)
+    }
+
+    /// Adds or removes what no page edits: results, and files that arrive.
+    pub(crate) fn amend<T>(&self, amend: impl FnOnce(&mut Session) -> T) -> Result<T, Problem> {
+        let mut session = self.locked();
+        let mut changed = session.clone();
+        let made = amend(&mut changed);
+        self.folder.write(&changed)?;
+        *session = changed;
+        Ok(made)
+    }
+
+    /// The job that runs, or the last one.
+    pub(crate) fn job(&self) -> Option<Arc<Job>> {
+        self.job.lock().unwrap_or_else(PoisonError::into_inner).clone()
+    }
+
+    /// Takes a job as the one that runs, if none does.
+    pub(crate) fn begin(&self, job: &Arc<Job>) -> Result<(), Problem> {
+        let mut running = self.job.lock().unwrap_or_else(PoisonError::into_inner);
+        if running.as_ref().is_some_and(|job| !job.is_finished()) {
+            return Err(Problem::conflict(
+                "an identification runs already",
+                "wait for it, or stop it; one runs at a time",
+            ));
+        }
+        *running = Some(Arc::clone(job));
+        Ok(())
+    }
+
+    /// Where a file of the session is. Files of the folder that are not plain files are refused: it has no links.
+    pub(crate) fn path(&self, log: &LogEntry) -> Result<PathBuf, Problem> {
+        if let Some(path) = &log.path {
+            return Ok(path.clone());
+        }
+        let path = self.folder.logs().join(&log.name);
+        let is_file = path.symlink_metadata().is_ok_and(|known| known.is_file());
+        if is_file { Ok(path) } else { Err(Problem::not_found("log")) }
+    }
+
+    /// A log of the session, read as its setup says.
+    pub(crate) fn log(&self, session: &Session, log: &LogEntry) -> Result<Arc<CachedLog>, Problem> {
+        let options = ReadOptions {
+            header_row: session.setup.header_row,
+            skip_rows: session.setup.skip_rows,
+            ..ReadOptions::default()
+        };
+        self.cache.log(log.id, &self.path(log)?, &log.name, options)
+    }
+}

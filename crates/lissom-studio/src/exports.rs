@@ -1,0 +1,63 @@
+//! Files made of a result. Nothing is compiled or run.
+
+use std::fs;
+use std::path::Path;
+
+use lissom_io::export::{
+    c_files, export_model_of_result, mat_file, matlab_script, mjcf, python_script,
+};
+
+use crate::problem::Problem;
+
+/// A file for the user to save.
+pub(crate) struct Export {
+    pub(crate) content_type: &'static str,
+    pub(crate) content: Vec<u8>,
+}
+
+/// Names of the files that a result gives.
+pub(crate) const FILES: [&str; 9] = [
+    "report.html",
+    "result.json",
+    "campaign.toml",
+    "arm.py",
+    "arm.m",
+    "arm.mat",
+    "arm.xml",
+    "lissom_feedforward.h",
+    "lissom_feedforward.c",
+];
+
+/// The file of this name, of the result in a folder.
+pub(crate) fn export(folder: &Path, name: &str) -> Result<Export, Problem> {
+    let result = folder.join("result.json");
+    let model = || export_model_of_result(&result);
+    let (content_type, content) = match name {
+        "report.html" => ("text/html; charset=utf-8", fs::read(folder.join(name))?),
+        "result.json" => ("application/json", fs::read(folder.join(name))?),
+        "campaign.toml" => ("text/plain; charset=utf-8", fs::read(folder.join(name))?),
+        "arm.py" => ("text/plain; charset=utf-8", python_script(&model()?).into_bytes()),
+        "arm.m" => ("text/plain; charset=utf-8", matlab_script(&model()?).into_bytes()),
+        "arm.mat" => ("application/octet-stream", mat_file(&model()?)),
+        "arm.xml" => {
+            let text = mjcf(&model()?).map_err(lissom_io::Error::from)?;
+            ("text/plain; charset=utf-8", text.into_bytes())
+        }
+        "lissom_feedforward.h" => {
+            ("text/plain; charset=utf-8", c_files(&model()?).header.into_bytes())
+        }
+        "lissom_feedforward.c" => {
+            ("text/plain; charset=utf-8", c_files(&model()?).source.into_bytes())
+        }
+        _ => return Err(Problem::not_found("file")),
+    };
+    Ok(Export { content_type, content })
+}
+
+/// The content of the report page of the result in a folder.
+pub(crate) fn report(folder: &Path) -> Result<String, Problem> {
+    let page = fs::read_to_string(folder.join("report.html"))?;
+    let content = page.split_once("<main>\n").and_then(|(_, rest)| rest.rsplit_once("</main>"));
+    let content = content.ok_or_else(|| Problem::internal("the page of the result is damaged"))?;
+    Ok(content.0.to_owned())
+}

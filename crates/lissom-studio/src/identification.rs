@@ -1,0 +1,194 @@
+//! Identifies the logs of the session in a thread, and keeps the result.
+
+use std::fs;
+use std::panic::{AssertUnwindSafe, catch_unwind};
+use std::path::{Path, PathBuf};
+use std::sync::Arc;
+use std::thread;
+use std::time::{SystemTime, UNIX_EPOCH};
+
+use lissom::DescribedLogs;
+use lissom::identify::{Effort, Identified, Interrupt, Options, SearchEnd, Severity, identify};
+use lissom_io::inspect::{Description, Inspection};
+use lissom_io::{CampaignFile, CampaignReader, ResultFile, UnitNames, write};
+use lissom_text::with_uncertainty;
+use lissom_views::known_arm::checked;
+use lissom_views::{ProgramHints, Reference, own_logs, parameter_rows, report_page};
+
+use crate::app::Shared;
+use crate::job::{FirstRow, Job};
+use crate::problem::Problem;
+use crate::session::{ResultEntry, Session};
+use crate::state_folder::{create_private, write_private};
+
+/// Stages of an identification besides one for each run.
+const STAGES: usize = 4;
+
+/// Where the logs come from.
+enum Logs {
+    /// Logs, and what is said about them.
+    Described { first: Inspection, folder: PathBuf, files: Vec<PathBuf>, said: Description },
+    /// A campaign.toml; confined to its folder if the browser sent it.
+    Campaign { path: PathBuf, confined: bool },
+}
+
+/// The files of a result.
+struct Made {
+    entry: ResultEntry,
+    result: String,
+    campaign: String,
+    page: String,
+}
+
+/// Starts the identification of the session as it is.
+pub(crate) fn start(app: &Shared, session: Session) -> Result<Arc<Job>, Problem> {
+    let effort = Effort::from(session.setup.effort);
+    let logs = logs(app, &session)?;
+    let job = Arc::new(Job::new(effort.most_evaluations()));
+    app.begin(&job)?;
+    let (app, running) = (Arc::clone(app), Arc::clone(&job));
+    thread::spawn(move || {
+        let work = || keep(&app, made(&session, logs, &running)?);
+        let outcome = catch_unwind(AssertUnwindSafe(work));
+        running.finish(outcome.unwrap_or_else(|_| {
+            Err(Problem::internal("the identification has failed: this is an error in lissom"))
+        }));
+    });
+    Ok(job)
+}
+
+/// The logs of the session, refused if something is missing.
+fn logs(app: &Shared, session: &Session) -> Result<Logs, Problem> {
+    if let Some(campaign) = session.campaign() {
+        let confined = campaign.path.is_none();
+        return Ok(Logs::Campaign { path: app.path(campaign)?, confined });
+    }
+    let files: Vec<PathBuf> = session.used_logs().map(super::session::LogEntry::file).collect();
+    let Some(first) = session.used_logs().next() else {
+        return Err(Problem::input("there is no log", Some("add a log first".to_owned())));
+    };
+    let first = app.log(session, first)?.inspection.clone();
+    let said = session.setup.description(session, &first)?;
+    Ok(Logs::Described { first, folder: app.folder.logs(), files, said })
+}
+
+/// Reads the logs; also returns the text of their campaign.toml.
+fn read(logs: Logs) -> Result<(CampaignFile, String), Problem> {
+    match logs {
+        Logs::Described { first, folder, files, said } => {
+            let described = DescribedLogs::in_folder(first, &folder, &files, &said)?;
+            let file = described.read()?;
+            Ok((file, described.draft.commented()))
+        }
+        Logs::Campaign { path, confined } => {
+            let reader = CampaignReader::of_file(&path);
+            let reader = if confined { reader.confined() } else { reader };
+            Ok((reader.read()?, fs::read_to_string(&path)?))
+        }
+    }
+}
+
+/// Identifies, and makes the texts of the files.
+fn made(session: &Session, logs: Logs, job: &Job) -> Result<Made, Problem> {
+    let (file, campaign) = read(logs)?;
+    let effort = Effort::from(session.setup.effort);
+    let found = |effort, interrupt: Interrupt, stage: &dyn Fn(lissom::identify::Stage)| {
+        let options = Options { effort, interrupt, ..file.options() };
+        identify(&file.campaign, &options, stage)
+            .map_err(|error| Problem::input(error.to_string(), None))
+    };
+    refuse_if_dropped(job)?;
+    let stages = file.campaign.runs.len() + STAGES;
+    if effort != Effort::Quick {
+        job.step("first result, without a search");
+        let first = found(Effort::Quick, Interrupt::default(), &|_| ())?;
+        refuse_if_dropped(job)?;
+        job.first(first_rows(&file, &first), stages);
+    } else {
+        job.first(Vec::new(), stages);
+    }
+    let id = found(effort, job.interrupt.clone(), &|stage| job.stage(stage))?;
+    job.step("report");
+    let reference = Reference::of(&file)?;
+    let geometry = checked(&id, reference.as_ref());
+    let result = ResultFile::of(&file.campaign.channels, &id, geometry.as_ref());
+    let name = name(session);
+    let page = report_page::page(
+        &name,
+        &file.campaign,
+        &id,
+        own_logs(&file.campaign, &id).as_ref(),
+        reference.as_ref(),
+        geometry.as_ref(),
+        ProgramHints::NONE,
+    );
+    let count = |severity| id.findings.iter().filter(|f| f.severity() == severity).count();
+    let made = SystemTime::now().duration_since(UNIX_EPOCH).unwrap_or_default();
+    Ok(Made {
+        entry: ResultEntry {
+            id: 0,
+            name,
+            made_s: made.as_secs(),
+            effort: session.setup.effort,
+            runs: id.runs.len(),
+            warnings: count(Severity::Warning),
+            refusals: count(Severity::Refusal),
+            interrupted: is_interrupted(&id),
+            setup: session.setup.clone(),
+        },
+        result: write::json_text(Path::new("result.json"), &result)
+            .map_err(lissom_io::Error::from)?,
+        campaign,
+        page: page.to_html(),
+    })
+}
+
+fn refuse_if_dropped(job: &Job) -> Result<(), Problem> {
+    if job.is_dropped() { Err(Problem::input("stopped", None)) } else { Ok(()) }
+}
+
+fn is_interrupted(id: &Identified) -> bool {
+    id.output_error.as_ref().is_some_and(|found| found.end == SearchEnd::Interrupted)
+}
+
+/// The name of a result of the session: that of its campaign or first log.
+fn name(session: &Session) -> String {
+    let first = session.campaign().or_else(|| session.used_logs().next());
+    let more = match session.campaign() {
+        Some(_) => 0,
+        None => session.used_logs().count().saturating_sub(1),
+    };
+    let first = first.map_or_else(String::new, |log| log.name.clone());
+    match more {
+        0 => first,
+        1 => format!("{first} and one more"),
+        more => format!("{first} and {more} more"),
+    }
+}
+
+fn first_rows(file: &CampaignFile, id: &Identified) -> Vec<FirstRow> {
+    let rows = parameter_rows(UnitNames::new(&file.campaign.channels), id, None);
+    let row = |row: lissom_views::parameter_rows::ParameterRow| {
+        let value = row.estimate.map(|e| with_uncertainty(e.value, e.std));
+        let value = value.unwrap_or_else(|| "refused".to_owned());
+        FirstRow { name: row.name, value, unit: row.unit }
+    };
+    rows.into_iter().map(row).collect()
+}
+
+/// Writes the files of a result, and adds it to the session.
+fn keep(app: &Shared, made: Made) -> Result<u64, Problem> {
+    let id = app.amend(Session::new_id)?;
+    let folder = app.folder.result(id);
+    create_private(&folder)?;
+    let files = [
+        ("result.json", made.result),
+        ("campaign.toml", made.campaign),
+        ("report.html", made.page),
+    ];
+    for (name, text) in files {
+        write_private(&folder.join(name), text.as_bytes())?;
+    }
+    app.amend(|session| session.results.push(ResultEntry { id, ..made.entry }))?;
+    Ok(id)
+}

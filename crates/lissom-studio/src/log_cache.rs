@@ -1,0 +1,147 @@
+//! Logs in memory, so that a page that zooms does not read files again.
+
+use std::path::{Path, PathBuf};
+use std::sync::{Arc, Mutex, OnceLock, PoisonError};
+
+use lissom_formats::{LogData, ReadOptions};
+use lissom_io::inspect::{Inspection, Role, inspect_with};
+
+use crate::problem::Problem;
+use crate::thinned::{Abscissa, Extremes, Points, thinned};
+
+/// Most values that are kept: 1 GB.
+const VALUES_MOST: usize = 1 << 27;
+
+/// A log that was read.
+#[derive(Debug)]
+pub(crate) struct CachedLog {
+    /// What is in it, without its values.
+    pub(crate) inspection: Inspection,
+    data: LogData,
+    extremes: Vec<OnceLock<Extremes>>,
+    /// Whether the values of a channel increase, as stamps do.
+    increases: Vec<OnceLock<bool>>,
+}
+
+/// How a log is read.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+struct Key {
+    id: u64,
+    options: ReadOptions,
+}
+
+/// The logs that were read last.
+#[derive(Debug, Default)]
+pub(crate) struct LogCache {
+    logs: Mutex<Vec<(Key, Arc<CachedLog>)>>,
+}
+
+impl LogCache {
+    /// A log, read if it is not there yet; errors call it `name`.
+    pub(crate) fn log(
+        &self,
+        id: u64,
+        path: &Path,
+        name: &str,
+        options: ReadOptions,
+    ) -> Result<Arc<CachedLog>, Problem> {
+        let key = Key { id, options };
+        let mut logs = self.logs.lock().unwrap_or_else(PoisonError::into_inner);
+        if let Some(at) = logs.iter().position(|(known, _)| *known == key) {
+            let found = logs.remove(at);
+            let log = Arc::clone(&found.1);
+            logs.push(found);
+            return Ok(log);
+        }
+        drop(logs);
+        let log = Arc::new(CachedLog::read(path, name, &options)?);
+        let mut logs = self.logs.lock().unwrap_or_else(PoisonError::into_inner);
+        logs.retain(|(known, _)| known.id != id);
+        logs.push((key, Arc::clone(&log)));
+        while logs.len() > 1
+            && logs.iter().map(|(_, log)| log.values()).sum::<usize>() > VALUES_MOST
+        {
+            logs.remove(0);
+        }
+        Ok(log)
+    }
+
+    /// Forgets a log.
+    pub(crate) fn forget(&self, id: u64) {
+        let mut logs = self.logs.lock().unwrap_or_else(PoisonError::into_inner);
+        logs.retain(|(known, _)| known.id != id);
+    }
+}
+
+impl CachedLog {
+    fn read(path: &Path, name: &str, options: &ReadOptions) -> Result<Self, Problem> {
+        let mut inspection = inspect_with(path, options).map_err(|error| {
+            let mut problem = Problem::from(error);
+            // People know a log by its name, not by its place in the folder of the state.
+            problem.error = problem.error.replace(&path.display().to_string(), name);
+            problem
+        })?;
+        inspection.file = PathBuf::from(name);
+        let nothing = LogData::of_columns::<String>([]);
+        let data = std::mem::replace(&mut inspection.data, nothing);
+        let channels = || data.channels.iter();
+        let extremes = channels().map(|_| OnceLock::new()).collect();
+        let increases = channels().map(|_| OnceLock::new()).collect();
+        Ok(Self { inspection, data, extremes, increases })
+    }
+
+    fn values(&self) -> usize {
+        self.data.channels.iter().map(|channel| channel.values.len()).sum()
+    }
+
+    /// The channel with the stamps of a channel, if they increase.
+    fn stamps(&self, channel: usize) -> Option<usize> {
+        let own = self.inspection.channels[channel].time;
+        let time = own.or_else(|| Some(self.inspection.guess(Role::Time)?.channel))?;
+        let values = &self.data.channels[time].values;
+        let as_long = values.len() == self.data.channels[channel].values.len();
+        let increase = *self.increases[time].get_or_init(|| {
+            values.first().is_some_and(|first| first.is_finite())
+                && values.is_sorted_by(|a, b| a < b)
+        });
+        (as_long && increase && time != channel).then_some(time)
+    }
+
+    /// The points of a channel, counted from 0, for a screen; all of them if no range is given.
+    pub(crate) fn trace(
+        &self,
+        channel: usize,
+        range: Option<[f64; 2]>,
+        pixels: usize,
+    ) -> Option<TracePoints> {
+        let values = &self.data.channels.get(channel)?.values;
+        let known = self.extremes[channel].get_or_init(|| Extremes::of(values));
+        let time = self.stamps(channel);
+        let x = match time {
+            Some(time) => Abscissa::Stamps(&self.data.channels[time].values),
+            None => Abscissa::Rows,
+        };
+        let label = |k: usize| {
+            let channel = &self.inspection.channels[k];
+            match &channel.unit {
+                Some(unit) => format!("{} ({})", channel.label(), unit.text),
+                None => channel.label(),
+            }
+        };
+        let range = range.unwrap_or([f64::NEG_INFINITY, f64::INFINITY]);
+        Some(TracePoints {
+            label: label(channel),
+            x_label: time.map_or_else(|| "row".to_owned(), label),
+            points: thinned(&x, values, known, range, pixels),
+        })
+    }
+}
+
+/// The points of a channel, with names for the axes.
+#[derive(Debug, serde::Serialize)]
+pub(crate) struct TracePoints {
+    label: String,
+    x_label: String,
+    #[serde(flatten)]
+    points: Points,
+}

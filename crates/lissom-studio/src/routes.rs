@@ -1,0 +1,328 @@
+//! Addresses of the application.
+
+use std::sync::Arc;
+
+use axum::body::Body;
+use axum::extract::{DefaultBodyLimit, Path, Query, State};
+use axum::http::header::CONTENT_TYPE;
+use axum::http::{HeaderName, StatusCode};
+use axum::response::{IntoResponse, Response};
+use axum::routing::{delete, get, post, put};
+use axum::{Json, Router, middleware};
+use lissom_io::{ComparedFile, read_result};
+use serde::{Deserialize, Serialize};
+
+use crate::access;
+use crate::app::Shared;
+use crate::exports;
+use crate::identification;
+use crate::job::JobView;
+use crate::log_cache::TracePoints;
+use crate::opener;
+use crate::problem::Problem;
+use crate::sample;
+use crate::session::{FileKind, LogEntry, Session};
+use crate::setup::Setup;
+use crate::state_view::StateView;
+use crate::uploads;
+
+const PAGE: &str = include_str!("page/index.html");
+const SCRIPT: &str = include_str!("page/studio.js");
+const STYLE: &str = include_str!("page/studio.css");
+/// Most bytes of a request that is no upload.
+const REQUEST_BYTES: usize = 1 << 20;
+/// Most pixels of a plot.
+const PIXELS_MOST: usize = 8000;
+const PIXELS: usize = 1000;
+
+type Answer<T> = Result<Json<T>, Problem>;
+
+/// All addresses.
+pub(crate) fn router(app: Shared) -> Router {
+    let with_key = Router::new()
+        .route("/api/state", get(state))
+        .route("/api/setup", put(put_setup))
+        .route("/api/sample", post(add_sample))
+        .route("/api/files/{name}", put(put_file).layer(DefaultBodyLimit::disable()))
+        .route("/api/logs/{id}", delete(remove_log))
+        .route("/api/logs/{id}/trace/{channel}", get(trace))
+        .route("/api/job", get(job).post(start_job).delete(stop_job))
+        .route("/api/results/{id}", delete(remove_result))
+        .route("/api/results/{id}/report", get(report))
+        .route("/api/results/{id}/files/{name}", get(result_file))
+        .route("/api/compare", get(compare))
+        .route_layer(middleware::from_fn_with_state(Arc::clone(&app), access::need_key));
+    Router::new()
+        .route("/", get(|| async { ([(CONTENT_TYPE, "text/html; charset=utf-8")], PAGE) }))
+        .route("/studio.js", get(|| async { ([(CONTENT_TYPE, "text/javascript")], SCRIPT) }))
+        .route("/studio.css", get(|| async { ([(CONTENT_TYPE, "text/css")], style()) }))
+        .route("/api/key", post(key))
+        .merge(with_key)
+        .fallback(|| async { Problem::not_found("address") })
+        .layer(DefaultBodyLimit::max(REQUEST_BYTES))
+        .layer(middleware::from_fn(access::guard))
+        .with_state(app)
+}
+
+/// The style of the report page, and what the application has in addition.
+fn style() -> String {
+    [lissom_report::PAGE_STYLE, STYLE].concat()
+}
+
+/// Runs work that takes time in another thread.
+async fn in_thread<T: Send + 'static>(
+    work: impl FnOnce() -> Result<T, Problem> + Send + 'static,
+) -> Result<T, Problem> {
+    let done = tokio::task::spawn_blocking(work).await;
+    done.unwrap_or_else(|_| Err(Problem::internal("this is an error in lissom")))
+}
+
+#[derive(Deserialize)]
+struct Token {
+    token: String,
+}
+
+#[derive(Serialize)]
+struct Key {
+    key: String,
+}
+
+async fn key(State(app): State<Shared>, Json(said): Json<Token>) -> Answer<Key> {
+    let key = app.access.exchange(&said.token)?;
+    // The file opens one more page.
+    let token = app.access.new_token().map_err(Problem::internal)?;
+    opener::write(app.folder.path(), &opener::address(app.port, &token))?;
+    Ok(Json(Key { key }))
+}
+
+async fn state(State(app): State<Shared>) -> Answer<StateView> {
+    in_thread(move || Ok(Json(StateView::of(&app)))).await
+}
+
+#[derive(Deserialize)]
+struct NewSetup {
+    revision: u64,
+    setup: Setup,
+}
+
+async fn put_setup(State(app): State<Shared>, Json(new): Json<NewSetup>) -> Answer<StateView> {
+    in_thread(move || {
+        app.change(new.revision, |session| {
+            session.setup = new.setup;
+            let logs = session.logs.clone();
+            session.setup.forget(|id| logs.iter().any(|log| log.id == id));
+            Ok(())
+        })?;
+        Ok(Json(StateView::of(&app)))
+    })
+    .await
+}
+
+#[derive(Deserialize)]
+struct Known {
+    revision: u64,
+}
+
+async fn add_sample(State(app): State<Shared>, Json(known): Json<Known>) -> Answer<StateView> {
+    in_thread(move || {
+        if app.session().revision != known.revision || !app.session().logs.is_empty() {
+            return Err(Problem::conflict(
+                "there are logs already",
+                "remove them first: the sample has a session of its own",
+            ));
+        }
+        let names = sample::write(&app.folder.logs())?;
+        app.change(known.revision, |session| {
+            for name in names {
+                let id = session.new_id();
+                session.logs.push(LogEntry { id, name, path: None, kind: FileKind::Log });
+            }
+            session.setup = sample::setup();
+            Ok(())
+        })?;
+        Ok(Json(StateView::of(&app)))
+    })
+    .await
+}
+
+async fn put_file(
+    State(app): State<Shared>,
+    Path(name): Path<String>,
+    body: Body,
+) -> Answer<StateView> {
+    let name = uploads::receive(&app.folder.logs(), &name, body, app.quota_bytes).await?;
+    in_thread(move || {
+        let path = app.folder.logs().join(&name);
+        let added = add_file(&app, name);
+        if added.is_err() {
+            std::fs::remove_file(path)?;
+        }
+        added?;
+        Ok(Json(StateView::of(&app)))
+    })
+    .await
+}
+
+/// Adds a file that has arrived. A log that cannot be read is refused.
+fn add_file(app: &Shared, name: String) -> Result<(), Problem> {
+    let kind = kind(&app.folder.logs().join(&name));
+    let id = app.amend(Session::new_id)?;
+    let log = LogEntry { id, name, path: None, kind };
+    let is_first = app.session().used_logs().next().is_none();
+    let guessed = if kind == FileKind::Log {
+        let read = app.log(&app.session(), &log)?;
+        is_first.then(|| Setup::guessed(&read.inspection))
+    } else {
+        None
+    };
+    app.amend(|session| {
+        if let Some(guessed) = guessed.filter(|_| session.setup == Setup::default()) {
+            session.setup = guessed;
+        }
+        session.logs.push(log);
+        session.revision += 1;
+    })
+}
+
+/// What a file is.
+pub(crate) fn kind(path: &std::path::Path) -> FileKind {
+    let is_toml = path.extension().is_some_and(|ending| ending.eq_ignore_ascii_case("toml"));
+    if !is_toml {
+        return FileKind::Log;
+    }
+    match lissom_io::CampaignReader::of_file(path).run_files() {
+        Ok(_) => FileKind::Campaign,
+        // With a mistake it is still a campaign: its error is reported when it is read.
+        Err(_) if lissom_io::read_text(path).is_ok_and(|text| text.contains("[signals]")) => {
+            FileKind::Campaign
+        }
+        Err(_) => FileKind::Other,
+    }
+}
+
+async fn remove_log(
+    State(app): State<Shared>,
+    Path(id): Path<u64>,
+    Query(known): Query<Known>,
+) -> Answer<StateView> {
+    in_thread(move || {
+        let removed = app.change(known.revision, |session| {
+            let at = session.logs.iter().position(|log| log.id == id);
+            let removed = session.logs.remove(at.ok_or_else(|| Problem::not_found("log"))?);
+            session.setup.forget(|log| log != id);
+            if session.logs.is_empty() {
+                session.setup = Setup::default();
+            }
+            Ok(removed)
+        })?;
+        app.cache.forget(id);
+        if removed.path.is_none() {
+            std::fs::remove_file(app.folder.logs().join(removed.name))?;
+        }
+        Ok(Json(StateView::of(&app)))
+    })
+    .await
+}
+
+#[derive(Deserialize)]
+struct Part {
+    from: Option<f64>,
+    to: Option<f64>,
+    pixels: Option<usize>,
+}
+
+async fn trace(
+    State(app): State<Shared>,
+    Path((id, channel)): Path<(u64, usize)>,
+    Query(part): Query<Part>,
+) -> Answer<TracePoints> {
+    in_thread(move || {
+        let session = app.session();
+        let log = session.log(id).ok_or_else(|| Problem::not_found("log"))?;
+        let pixels = part.pixels.unwrap_or(PIXELS).clamp(1, PIXELS_MOST);
+        let range = part.from.zip(part.to).map(|(from, to)| [from, to]);
+        let points = app.log(&session, log)?.trace(channel.wrapping_sub(1), range, pixels);
+        points.map(Json).ok_or_else(|| Problem::not_found("channel"))
+    })
+    .await
+}
+
+async fn job(State(app): State<Shared>) -> Json<Option<JobView>> {
+    Json(app.job().map(|job| job.view()))
+}
+
+async fn start_job(State(app): State<Shared>, Json(known): Json<Known>) -> Answer<JobView> {
+    in_thread(move || {
+        let session = app.session();
+        if session.revision != known.revision {
+            return Err(Problem::conflict(
+                "another page has changed this session meanwhile",
+                "this page shows the session as it is now; start again",
+            ));
+        }
+        Ok(Json(identification::start(&app, session)?.view()))
+    })
+    .await
+}
+
+async fn stop_job(State(app): State<Shared>) -> Answer<JobView> {
+    let job = app.job().ok_or_else(|| Problem::not_found("identification"))?;
+    job.stop();
+    Ok(Json(job.view()))
+}
+
+async fn remove_result(State(app): State<Shared>, Path(id): Path<u64>) -> Answer<StateView> {
+    in_thread(move || {
+        let removed = app.amend(|session| {
+            let at = session.results.iter().position(|result| result.id == id);
+            at.map(|at| session.results.remove(at))
+        })?;
+        let removed = removed.ok_or_else(|| Problem::not_found("result"))?;
+        std::fs::remove_dir_all(app.folder.result(removed.id))?;
+        Ok(Json(StateView::of(&app)))
+    })
+    .await
+}
+
+/// The folder of a result of the session.
+fn result_folder(app: &Shared, id: u64) -> Result<std::path::PathBuf, Problem> {
+    let session = app.session();
+    let result = session.result(id).ok_or_else(|| Problem::not_found("result"))?;
+    Ok(app.folder.result(result.id))
+}
+
+async fn report(State(app): State<Shared>, Path(id): Path<u64>) -> Result<Response, Problem> {
+    let text = in_thread(move || exports::report(&result_folder(&app, id)?)).await?;
+    // As plain text: nothing of it may run if a browser opens it by itself.
+    Ok(([(CONTENT_TYPE, "text/plain; charset=utf-8")], text).into_response())
+}
+
+async fn result_file(
+    State(app): State<Shared>,
+    Path((id, name)): Path<(u64, String)>,
+) -> Result<Response, Problem> {
+    let file = in_thread(move || exports::export(&result_folder(&app, id)?, &name)).await?;
+    let save = (HeaderName::from_static("content-disposition"), "attachment");
+    Ok((StatusCode::OK, [(CONTENT_TYPE, file.content_type), save], file.content).into_response())
+}
+
+#[derive(Deserialize)]
+struct Chosen {
+    /// Numbers of results, with commas between them.
+    results: String,
+}
+
+async fn compare(State(app): State<Shared>, Query(chosen): Query<Chosen>) -> Answer<ComparedFile> {
+    in_thread(move || {
+        let session = app.session();
+        let mut lists = Vec::new();
+        for text in chosen.results.split(',') {
+            let id = text.parse().ok().and_then(|id| session.result(id));
+            let result = id.ok_or_else(|| Problem::not_found("result"))?;
+            let list = read_result(&app.folder.result(result.id).join("result.json"))?;
+            lists.push((format!("{} ({})", result.name, result.id), list));
+        }
+        Ok(Json(ComparedFile::of(&lists).map_err(lissom_io::Error::from)?))
+    })
+    .await
+}

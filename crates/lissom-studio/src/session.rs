@@ -1,0 +1,144 @@
+//! What is kept between two starts: `session.json`.
+
+use std::path::PathBuf;
+
+use lissom::identify::Effort;
+use serde::{Deserialize, Serialize};
+
+use crate::setup::Setup;
+
+/// Number of the format of `session.json`.
+const FORMAT: u32 = 1;
+
+/// Logs, what is said about them, and results.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(crate) struct Session {
+    format: u32,
+    /// Grows with every change of logs and setup: a page that knows an older number may not change them.
+    pub(crate) revision: u64,
+    /// The number that the next log or result gets.
+    next: u64,
+    pub(crate) logs: Vec<LogEntry>,
+    pub(crate) setup: Setup,
+    pub(crate) results: Vec<ResultEntry>,
+}
+
+/// A file of the session.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(crate) struct LogEntry {
+    pub(crate) id: u64,
+    /// Its name for people; that of an upload is its name in the folder of logs.
+    pub(crate) name: String,
+    /// Where it is, if it was given to the command; absent for an upload.
+    pub(crate) path: Option<PathBuf>,
+    pub(crate) kind: FileKind,
+}
+
+impl LogEntry {
+    /// Its path as a campaign in the folder of logs names it.
+    pub(crate) fn file(&self) -> PathBuf {
+        self.path.clone().unwrap_or_else(|| PathBuf::from(&self.name))
+    }
+}
+
+/// What a file is.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub(crate) enum FileKind {
+    /// A log.
+    Log,
+    /// A campaign.toml, which describes the logs.
+    Campaign,
+    /// Another file, which a campaign may need.
+    Other,
+}
+
+/// A result.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(crate) struct ResultEntry {
+    pub(crate) id: u64,
+    /// Its name for people.
+    pub(crate) name: String,
+    /// When it was made, in seconds since 1970.
+    pub(crate) made_s: u64,
+    pub(crate) effort: EffortName,
+    pub(crate) runs: usize,
+    pub(crate) warnings: usize,
+    pub(crate) refusals: usize,
+    /// Whether the search was ended early.
+    pub(crate) interrupted: bool,
+    /// The setup that it was made with.
+    pub(crate) setup: Setup,
+}
+
+/// How far the search goes.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub(crate) enum EffortName {
+    Quick,
+    #[default]
+    Normal,
+    Thorough,
+}
+
+impl From<EffortName> for Effort {
+    fn from(name: EffortName) -> Self {
+        match name {
+            EffortName::Quick => Self::Quick,
+            EffortName::Normal => Self::Normal,
+            EffortName::Thorough => Self::Thorough,
+        }
+    }
+}
+
+impl Default for Session {
+    fn default() -> Self {
+        let (logs, results) = (Vec::new(), Vec::new());
+        Self { format: FORMAT, revision: 0, next: 1, logs, setup: Setup::default(), results }
+    }
+}
+
+impl Session {
+    /// Reads the text of a `session.json`, or says why it is none.
+    pub(crate) fn of_text(text: &str) -> Result<Self, String> {
+        let session: Self = serde_json::from_str(text).map_err(|error| error.to_string())?;
+        if session.format != FORMAT {
+            return Err(format!(
+                "its format is {}, and this program knows {FORMAT}",
+                session.format
+            ));
+        }
+        Ok(session)
+    }
+
+    /// A number that no log or result has had.
+    pub(crate) fn new_id(&mut self) -> u64 {
+        let id = self.next;
+        self.next += 1;
+        id
+    }
+
+    /// The file with this number.
+    pub(crate) fn log(&self, id: u64) -> Option<&LogEntry> {
+        self.logs.iter().find(|log| log.id == id)
+    }
+
+    /// The result with this number.
+    pub(crate) fn result(&self, id: u64) -> Option<&ResultEntry> {
+        self.results.iter().find(|result| result.id == id)
+    }
+
+    /// The campaign.toml, if there is one.
+    pub(crate) fn campaign(&self) -> Option<&LogEntry> {
+        self.logs.iter().find(|log| log.kind == FileKind::Campaign)
+    }
+
+    /// The logs that are used.
+    pub(crate) fn used_logs(&self) -> impl Iterator<Item = &LogEntry> {
+        let used = |log: &&LogEntry| !self.setup.left_out.contains(&log.id);
+        self.logs.iter().filter(|log| log.kind == FileKind::Log).filter(used)
+    }
+}

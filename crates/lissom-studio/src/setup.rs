@@ -1,0 +1,199 @@
+//! What the user says about the logs, as the page has it, and as the description of a campaign.
+
+use lissom_io::inspect::{Choice, CommandKey, Description, Inspection, LogTrim, Role};
+use serde::{Deserialize, Serialize};
+
+use crate::problem::Problem;
+use crate::session::{EffortName, Session};
+
+/// What the user says about the logs. An empty text says nothing.
+#[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
+#[serde(default, deny_unknown_fields)]
+pub(crate) struct Setup {
+    pub(crate) time: Option<Pick>,
+    pub(crate) sample_time: String,
+    pub(crate) run: String,
+    pub(crate) header_row: Option<usize>,
+    pub(crate) skip_rows: usize,
+    pub(crate) command: Option<CommandPick>,
+    pub(crate) hold: String,
+    pub(crate) motor: Option<Pick>,
+    pub(crate) speed: Option<Pick>,
+    pub(crate) tips: Vec<Pick>,
+    pub(crate) torque_constant: String,
+    pub(crate) resistance: String,
+    pub(crate) back_emf: String,
+    pub(crate) gear_ratio: String,
+    pub(crate) gravity: bool,
+    pub(crate) mgl: String,
+    pub(crate) skip: String,
+    pub(crate) window: String,
+    pub(crate) effort: EffortName,
+    /// Logs that are not used.
+    pub(crate) left_out: Vec<u64>,
+    pub(crate) trims: Vec<Trim>,
+}
+
+/// A channel with its unit.
+#[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
+#[serde(default, deny_unknown_fields)]
+pub(crate) struct Pick {
+    /// Name of the channel, or its number from 1.
+    pub(crate) column: String,
+    pub(crate) unit: String,
+    pub(crate) scale: String,
+    pub(crate) quantity: String,
+    pub(crate) radius: String,
+}
+
+/// The command, and what it is.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(crate) struct CommandPick {
+    pub(crate) kind: CommandKind,
+    pub(crate) channel: Pick,
+}
+
+/// What a command is.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub(crate) enum CommandKind {
+    Current,
+    Voltage,
+    /// A torque, or a number of unknown unit.
+    Torque,
+    /// The position reference of a servo.
+    Goal,
+}
+
+/// What of a log is left out.
+#[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
+#[serde(default, deny_unknown_fields)]
+pub(crate) struct Trim {
+    pub(crate) log: u64,
+    pub(crate) skip: String,
+    pub(crate) until: String,
+    pub(crate) leave_out: Vec<[String; 2]>,
+}
+
+/// A text that says something.
+fn said(text: &str) -> Option<String> {
+    let text = text.trim();
+    (!text.is_empty()).then(|| text.to_owned())
+}
+
+impl Pick {
+    /// The channel, which must be one of the log: names of other files are no channels here.
+    fn choice(&self, log: &Inspection) -> Result<Option<Choice>, Problem> {
+        let Some(column) = said(&self.column) else { return Ok(None) };
+        let is_there = log
+            .channels
+            .iter()
+            .any(|channel| channel.name == column || channel.number.to_string() == column);
+        if !is_there {
+            let error = format!("{}: there is no channel \"{column}\"", log.file.display());
+            return Err(Problem::input(error, Some("choose one of its channels".to_owned())));
+        }
+        let mut keys = Vec::new();
+        if let Some(scale) = said(&self.scale) {
+            if !scale.parse::<f64>().is_ok_and(f64::is_finite) {
+                let error =
+                    format!("the scale of \"{column}\" must be a number, and \"{scale}\" is none");
+                return Err(Problem::input(error, None));
+            }
+            keys.push(("scale".to_owned(), scale));
+        }
+        for (key, value) in [("quantity", &self.quantity), ("radius", &self.radius)] {
+            keys.extend(said(value).map(|value| (key.to_owned(), quoted(&value))));
+        }
+        Ok(Some(Choice { column, unit: said(&self.unit), keys }))
+    }
+
+    /// The channel that is probably a point of the arm, if its unit is known.
+    fn of_guessed_tip(log: &Inspection) -> Option<Self> {
+        let channel = &log.channels[log.guess(Role::Tip)?.channel];
+        let unit = channel.unit.as_ref().filter(|unit| unit.known.is_some())?;
+        Some(Self { column: channel.asked(), unit: unit.text.clone(), ..Self::default() })
+    }
+}
+
+/// A text as TOML writes it.
+fn quoted(text: &str) -> String {
+    serde_json::Value::from(text).to_string()
+}
+
+impl Setup {
+    /// The setup of a log about which nothing is said: a channel that is probably a point of the arm is one.
+    pub(crate) fn guessed(log: &Inspection) -> Self {
+        Self { tips: Pick::of_guessed_tip(log).into_iter().collect(), ..Self::default() }
+    }
+
+    /// The description of a campaign of the logs that are used, of which `log` is the first.
+    pub(crate) fn description(
+        &self,
+        session: &Session,
+        log: &Inspection,
+    ) -> Result<Description, Problem> {
+        let choice = |pick: &Option<Pick>| match pick {
+            Some(pick) => pick.choice(log),
+            None => Ok(None),
+        };
+        let mut tips = Vec::new();
+        for tip in &self.tips {
+            tips.extend(tip.choice(log)?);
+        }
+        let drive = [
+            ("torque_constant", &self.torque_constant),
+            ("resistance", &self.resistance),
+            ("back_emf", &self.back_emf),
+            ("gear_ratio", &self.gear_ratio),
+        ];
+        let drive =
+            drive.into_iter().filter_map(|(key, value)| Some((key.to_owned(), said(value)?)));
+        let trims = self.trims.iter().filter_map(|trim| {
+            let file = session.log(trim.log)?.file();
+            let (skip, until) = (said(&trim.skip), said(&trim.until));
+            Some(LogTrim { file, skip, until, leave_out: trim.leave_out.clone() })
+        });
+        Ok(Description {
+            time: choice(&self.time)?,
+            sample_time: said(&self.sample_time),
+            run: said(&self.run),
+            command: self.command(log)?,
+            motor: choice(&self.motor)?,
+            speed: choice(&self.speed)?,
+            tips,
+            header_row: self.header_row,
+            skip_rows: self.skip_rows,
+            hold: said(&self.hold),
+            drive: drive.collect(),
+            gravity: self.gravity,
+            mgl: said(&self.mgl),
+            skip: said(&self.skip),
+            window: said(&self.window),
+            trims: trims.collect(),
+            ..Description::default()
+        })
+    }
+
+    fn command(&self, log: &Inspection) -> Result<Option<(CommandKey, Choice)>, Problem> {
+        let Some(command) = &self.command else { return Ok(None) };
+        let Some(mut choice) = command.channel.choice(log)? else { return Ok(None) };
+        let key = match command.kind {
+            CommandKind::Current => CommandKey::Current,
+            CommandKind::Voltage => CommandKey::Voltage,
+            CommandKind::Torque => CommandKey::Command,
+            CommandKind::Goal => {
+                choice.keys.push(("quantity".to_owned(), quoted("goal")));
+                CommandKey::Command
+            }
+        };
+        Ok(Some((key, choice)))
+    }
+
+    /// Removes what is said about logs that are not there.
+    pub(crate) fn forget(&mut self, is_there: impl Fn(u64) -> bool) {
+        self.left_out.retain(|log| is_there(*log));
+        self.trims.retain(|trim| is_there(trim.log));
+    }
+}

@@ -1,0 +1,44 @@
+// Elements in one expression.
+
+type Child = Node | string | null;
+
+interface Properties {
+  readonly [name: string]: string | number | boolean | ((event: never) => void) | null;
+}
+
+/** An element with attributes, listeners (`onclick`) and children. */
+export function h<K extends keyof HTMLElementTagNameMap>(
+  tag: K,
+  properties: Properties = {},
+  ...children: readonly Child[]
+): HTMLElementTagNameMap[K] {
+  const made = document.createElement(tag);
+  for (const [name, value] of Object.entries(properties)) {
+    if (typeof value === "function") made.addEventListener(name.slice(2), value as EventListener);
+    else if (value === true) made.setAttribute(name, "");
+    else if (value !== false && value !== null) made.setAttribute(name, String(value));
+  }
+  made.append(...children.filter((child) => child !== null));
+  return made;
+}
+
+export function button(text: string, action: () => void, properties: Properties = {}): HTMLButtonElement {
+  return h("button", { type: "button", onclick: action, ...properties }, text);
+}
+
+/** Replaces the content of a place; what had the focus has it again. */
+export function put(place: Element, ...children: readonly Child[]): void {
+  const focused = document.activeElement?.id;
+  place.replaceChildren(...children.filter((child) => child !== null));
+  if (focused && document.activeElement === document.body) document.getElementById(focused)?.focus();
+}
+
+/** A duration for people. */
+export function seconds(value: number): string {
+  if (value >= 90) return `${Math.round(value / 60)} min`;
+  return value >= 9.95 ? `${Math.round(value)} s` : `${Number(value.toPrecision(2))} s`;
+}
+
+export function counted(count: number, what: string): string {
+  return `${count} ${what}${count === 1 ? "" : "s"}`;
+}

@@ -1,0 +1,109 @@
+// The files of the session: open, drop, choose which are used.
+
+import { send, sendFile } from "./api";
+import { button, counted, h, put, seconds } from "./dom";
+import type { Store } from "./store";
+import type { LogView, State } from "./types";
+
+export class Files {
+  readonly element = h("section", { "aria-label": "Logs" });
+  private readonly input: HTMLInputElement;
+
+  constructor(private readonly store: Store) {
+    this.input = h("input", { type: "file", multiple: true, class: "unseen", id: "choose", tabindex: -1, "aria-label": "choose logs" });
+    this.input.addEventListener("change", () => {
+      void this.add([...(this.input.files ?? [])]);
+      this.input.value = "";
+    });
+    document.addEventListener("dragover", (event) => {
+      event.preventDefault();
+      document.body.classList.add("dragging");
+    });
+    document.addEventListener("dragleave", (event) => {
+      if (!event.relatedTarget) document.body.classList.remove("dragging");
+    });
+    document.addEventListener("drop", (event) => {
+      event.preventDefault();
+      document.body.classList.remove("dragging");
+      void this.add([...(event.dataTransfer?.files ?? [])]);
+    });
+  }
+
+  /** Sends files, one after the other; those that cannot be read are named. */
+  private async add(files: readonly File[]): Promise<void> {
+    // A campaign comes last: it describes what is there then.
+    const last = (file: File) => Number(file.name.toLowerCase().endsWith(".toml"));
+    for (const file of [...files].sort((a, b) => last(a) - last(b))) {
+      const done = await this.store.during(`reading ${file.name}`, async () => {
+        this.store.take(await sendFile<State>(file));
+      });
+      if (!done) return;
+    }
+  }
+
+  private sample(): void {
+    void this.store.during("simulating logs", async () => {
+      this.store.take(await send<State>("POST", "/api/sample", { revision: this.store.state.revision }));
+    });
+  }
+
+  private remove(log: LogView): void {
+    void this.store.during("", async () => {
+      const path = `/api/logs/${log.id}?revision=${this.store.state.revision}`;
+      this.store.take(await send<State>("DELETE", path));
+    });
+  }
+
+  render(): void {
+    const { logs } = this.store.state;
+    const choose = button(logs.length > 0 ? "Add logs…" : "Open logs…", () => this.input.click(), { id: "open", class: "main" });
+    const welcome = h(
+      "div",
+      { class: "welcome" },
+      h("p", {}, "Open or drop logs of a drive: CSV, MATLAB, Parquet, HDF5, MCAP, TDMS, wpilog, xlsx and others. They stay on this machine."),
+      h("div", { class: "row" }, choose, button("Try it with a sample", () => this.sample(), { id: "sample" })),
+    );
+    const tools = h("div", { class: "row" }, choose);
+    put(this.element, h("h2", {}, "Logs"), this.input, ...(logs.length > 0 ? [this.table(logs), tools] : [welcome]));
+  }
+
+  private table(logs: readonly LogView[]): HTMLElement {
+    const rows = logs.map((log) => {
+      const use = h("input", { type: "checkbox", id: `use-${log.id}`, "aria-label": `use ${log.name}`, disabled: log.kind !== "log" });
+      use.checked = log.used;
+      use.addEventListener("change", () => {
+        void this.store.say((setup) => {
+          setup.left_out = setup.left_out.filter((id) => id !== log.id);
+          if (!use.checked) setup.left_out.push(log.id);
+        });
+      });
+      const what = log.problem ? log.problem.error : described(log);
+      return h(
+        "tr",
+        {},
+        h("td", {}, use),
+        h("td", { class: "name" }, log.name),
+        h("td", log.problem ? { class: "wrong" } : {}, what),
+        h("td", {}, button("Remove", () => this.remove(log), { id: `remove-${log.id}`, "aria-label": `remove ${log.name}` })),
+      );
+    });
+    const head = ["use", "log", "content", ""].map((text) => (text ? h("th", { scope: "col" }, text) : h("td", {})));
+    return h(
+      "div",
+      { class: "wide", tabindex: 0, role: "group", "aria-label": "Logs" },
+      h("table", { class: "files" }, h("thead", {}, h("tr", {}, ...head)), h("tbody", {}, ...rows)),
+    );
+  }
+}
+
+function described(log: LogView): string {
+  if (log.kind === "campaign") return "describes the logs";
+  if (!log.log) return "";
+  const { format, channels, clock } = log.log;
+  const samples = Math.max(0, ...channels.map((channel) => channel.values));
+  const time = channels.find((channel) => channel.number === log.log?.roles.find(({ role }) => role === "time")?.channel);
+  const unit = time?.unit ?? "";
+  const length = clock && unit === "s" ? `, ${seconds(clock.length)}` : "";
+  const gaps = clock && clock.gaps > 0 ? `, ${counted(clock.gaps, "gap")}` : "";
+  return `${format}: ${counted(channels.length, "channel")}, ${counted(samples, "sample")}${length}${gaps}`;
+}

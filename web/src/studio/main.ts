@@ -1,0 +1,75 @@
+// The application: logs and their channels, identification, results.
+
+import { enter, Refused } from "./api";
+import { Channels } from "./channels";
+import { button, h, put } from "./dom";
+import { Files } from "./files";
+import { Identify } from "./identify";
+import { Motion } from "./motion";
+import { Compare, Results } from "./results";
+import { Store } from "./store";
+
+const TAB = "lissom-tab";
+
+interface View {
+  readonly element: HTMLElement;
+  render(): void;
+}
+
+const store = new Store();
+const files = new Files(store);
+const results = new Results(store);
+const identify = new Identify(store, (result) => {
+  results.show(result);
+  choose("Results");
+});
+const tabs: Record<string, readonly View[]> = {
+  Logs: [files, new Channels(store), identify, new Motion(store)],
+  Results: [results],
+  Compare: [new Compare(store)],
+};
+const bar = h("nav", { "aria-label": "Steps", class: "tabs" });
+const message = h("div", { role: "alert" });
+const content = h("main");
+let chosen = sessionStorage.getItem(TAB) ?? "Logs";
+
+function choose(tab: string): void {
+  chosen = tab;
+  sessionStorage.setItem(TAB, tab);
+  render();
+  scrollTo(0, 0);
+}
+
+function render(): void {
+  const { problem, busy } = store;
+  const words = problem ? [h("strong", {}, problem.error), problem.hint ? h("p", {}, problem.hint) : null] : [busy ? h("p", {}, `${busy} …`) : null];
+  put(message, ...words);
+  message.className = problem ? "problem" : busy ? "busy" : "";
+  if (!store.isReady) return;
+  const views = tabs[chosen] ?? tabs["Logs"] ?? [];
+  put(
+    bar,
+    ...Object.keys(tabs).map((name) => {
+      const count = name === "Results" && store.state.results.length > 0 ? ` (${store.state.results.length})` : "";
+      return button(name + count, () => choose(name), { id: `tab-${name}`, "aria-current": name === chosen ? "page" : "false" });
+    }),
+  );
+  const elements = views.map(({ element }) => element);
+  if (elements.some((element) => element.parentElement !== content) || content.childElementCount !== elements.length) put(content, ...elements);
+  for (const view of views) view.render();
+}
+
+async function begin(): Promise<void> {
+  document.body.append(h("header", {}, h("strong", {}, "lissom studio"), bar), message, content);
+  store.listen(render);
+  try {
+    await enter();
+  } catch (error) {
+    store.problem = error instanceof Refused ? error.problem : { error: String(error) };
+    render();
+    return;
+  }
+  await store.load();
+}
+
+void begin();

@@ -1,0 +1,141 @@
+// What the server sends and takes; see lissom-studio.
+
+export interface Problem {
+  readonly error: string;
+  readonly hint?: string;
+}
+
+export interface Channel {
+  readonly number: number;
+  readonly name: string;
+  readonly unit: string | null;
+  readonly values: number;
+  readonly missing: number;
+  readonly min: number | null;
+  readonly max: number | null;
+  readonly constant: boolean;
+}
+
+export interface InspectedLog {
+  readonly format: string;
+  readonly clock: { readonly step: number; readonly gaps: number; readonly length: number } | null;
+  readonly channels: readonly Channel[];
+  readonly roles: readonly { readonly role: string; readonly channel: number; readonly why: string }[];
+  readonly notes: readonly string[];
+}
+
+export interface LogView {
+  readonly id: number;
+  readonly name: string;
+  readonly kind: "log" | "campaign" | "other";
+  readonly used: boolean;
+  readonly log: InspectedLog | null;
+  readonly problem: Problem | null;
+}
+
+export interface Pick {
+  column: string;
+  unit: string;
+  scale: string;
+  quantity: string;
+  radius: string;
+}
+
+export type CommandKind = "current" | "voltage" | "torque" | "goal";
+
+export interface Trim {
+  log: number;
+  skip: string;
+  until: string;
+  leave_out: [string, string][];
+}
+
+export interface Setup {
+  time: Pick | null;
+  sample_time: string;
+  run: string;
+  header_row: number | null;
+  skip_rows: number;
+  command: { kind: CommandKind; channel: Pick } | null;
+  hold: string;
+  motor: Pick | null;
+  speed: Pick | null;
+  tips: Pick[];
+  torque_constant: string;
+  resistance: string;
+  back_emf: string;
+  gear_ratio: string;
+  gravity: boolean;
+  mgl: string;
+  skip: string;
+  window: string;
+  effort: "quick" | "normal" | "thorough";
+  left_out: number[];
+  trims: Trim[];
+}
+
+export interface Job {
+  readonly step: string;
+  readonly done: number | null;
+  readonly elapsed_s: number;
+  readonly at_most_s: number | null;
+  readonly first: readonly { readonly name: string; readonly value: string; readonly unit: string }[];
+  readonly finished: boolean;
+  readonly result: number | null;
+  readonly problem: Problem | null;
+}
+
+export interface Result {
+  readonly id: number;
+  readonly name: string;
+  readonly made_s: number;
+  readonly effort: string;
+  readonly runs: number;
+  readonly warnings: number;
+  readonly refusals: number;
+  readonly interrupted: boolean;
+  readonly setup: Setup;
+}
+
+export interface State {
+  readonly version: string;
+  readonly folder: string;
+  readonly revision: number;
+  readonly logs: readonly LogView[];
+  readonly setup: Setup;
+  readonly campaign: {
+    readonly text: string;
+    readonly given: boolean;
+    readonly taken: readonly (readonly [string, string])[];
+    readonly problems: readonly Problem[];
+  };
+  readonly job: Job | null;
+  readonly results: readonly Result[];
+  readonly files: readonly string[];
+}
+
+export interface Trace {
+  readonly label: string;
+  readonly x_label: string;
+  readonly x: readonly number[];
+  readonly y: readonly (number | null)[];
+  /** Number of samples of what is shown. */
+  readonly samples: number;
+}
+
+interface Estimate {
+  readonly value: number;
+  readonly std: number;
+}
+
+export interface Compared {
+  readonly clear_standard_errors: number;
+  readonly results: readonly { readonly file: string }[];
+  readonly parameters: readonly {
+    readonly name: string;
+    readonly unit: string;
+    readonly values: readonly (Estimate | null)[];
+    readonly warnings: readonly (readonly string[])[];
+    readonly differences: readonly ({ readonly relative: number | null; readonly standard_errors: number | null; readonly clear: boolean } | null)[];
+  }[];
+}
