@@ -13,6 +13,7 @@ mod measured;
 mod python_environment;
 mod release;
 mod step;
+mod web;
 mod wheel;
 
 use std::{
@@ -92,6 +93,12 @@ const RECIPES: &[Recipe] = &[
         about: "build the wheel of the Python package, install it into an environment under target, test it there",
         takes: Takes::Flags(&[]),
         run: wheel,
+    },
+    Recipe {
+        name: "web",
+        about: "check the built scripts of report page and studio, and test them in Chromium; needs Node and Chromium",
+        takes: Takes::Flags(&[]),
+        run: web,
     },
     Recipe {
         name: "static",
@@ -204,6 +211,11 @@ fn test(context: &Context) -> Result<(), Failure> {
 /// Builds and tests the Python package.
 fn wheel(context: &Context) -> Result<(), Failure> {
     wheel::test(&context.root)
+}
+
+/// Checks the scripts, and tests them in a browser.
+fn web(context: &Context) -> Result<(), Failure> {
+    web::test(&context.root)
 }
 
 /// Writes the schemas in `docs/` from the types; a test fails if they differ.

@@ -178,7 +178,7 @@ fn first_rows(file: &CampaignFile, id: &Identified) -> Vec<FirstRow> {
 
 /// Writes the files of a result, and adds it to the session.
 fn keep(app: &Shared, made: Made) -> Result<u64, Problem> {
-    let id = app.amend(Session::new_id)?;
+    let id = app.amend(Session::new_result)?;
     let folder = app.folder.result(id);
     create_private(&folder)?;
     let files = [

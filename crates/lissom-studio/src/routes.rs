@@ -134,7 +134,7 @@ async fn add_sample(State(app): State<Shared>, Json(known): Json<Known>) -> Answ
         let names = sample::write(&app.folder.logs())?;
         app.change(known.revision, |session| {
             for name in names {
-                let id = session.new_id();
+                let id = session.new_log();
                 session.logs.push(LogEntry { id, name, path: None, kind: FileKind::Log });
             }
             session.setup = sample::setup();
@@ -166,7 +166,7 @@ async fn put_file(
 /// Adds a file that has arrived. A log that cannot be read is refused.
 fn add_file(app: &Shared, name: String) -> Result<(), Problem> {
     let kind = kind(&app.folder.logs().join(&name));
-    let id = app.amend(Session::new_id)?;
+    let id = app.amend(Session::new_log)?;
     let log = LogEntry { id, name, path: None, kind };
     let is_first = app.session().used_logs().next().is_none();
     let guessed = if kind == FileKind::Log {

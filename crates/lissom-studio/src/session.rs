@@ -17,8 +17,10 @@ pub(crate) struct Session {
     format: u32,
     /// Grows with every change of logs and setup: a page that knows an older number may not change them.
     pub(crate) revision: u64,
-    /// The number that the next log or result gets.
-    next: u64,
+    /// The number that the next log gets.
+    next_log: u64,
+    /// The number that the next result gets.
+    next_result: u64,
     pub(crate) logs: Vec<LogEntry>,
     pub(crate) setup: Setup,
     pub(crate) results: Vec<ResultEntry>,
@@ -97,7 +99,8 @@ impl From<EffortName> for Effort {
 impl Default for Session {
     fn default() -> Self {
         let (logs, results) = (Vec::new(), Vec::new());
-        Self { format: FORMAT, revision: 0, next: 1, logs, setup: Setup::default(), results }
+        let setup = Setup::default();
+        Self { format: FORMAT, revision: 0, next_log: 1, next_result: 1, logs, setup, results }
     }
 }
 
@@ -114,11 +117,16 @@ impl Session {
         Ok(session)
     }
 
-    /// A number that no log or result has had.
-    pub(crate) fn new_id(&mut self) -> u64 {
-        let id = self.next;
-        self.next += 1;
-        id
+    /// A number that no log has had.
+    pub(crate) fn new_log(&mut self) -> u64 {
+        self.next_log += 1;
+        self.next_log - 1
+    }
+
+    /// A number that no result has had.
+    pub(crate) fn new_result(&mut self) -> u64 {
+        self.next_result += 1;
+        self.next_result - 1
     }
 
     /// The file with this number.

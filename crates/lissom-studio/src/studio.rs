@@ -148,7 +148,7 @@ fn add_given(session: &mut Session, logs: Vec<(String, PathBuf)>) {
         {
             session.setup = Setup::guessed(&log);
         }
-        let id = session.new_id();
+        let id = session.new_log();
         session.logs.push(LogEntry { id, name, path: Some(path), kind });
         session.revision += 1;
     }

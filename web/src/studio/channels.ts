@@ -38,7 +38,7 @@ export class Channels {
     const first = logs.find((log) => log.kind === "log" && log.used && log.log)?.log;
     if (campaign.given || !first) {
       const given = campaign.given
-        ? [h("h2", {}, "Channels"), h("p", {}, "The campaign.toml describes the logs."), h("details", {}, h("summary", {}, "campaign.toml"), h("pre", {}, campaign.text))]
+        ? [h("h2", {}, "Channels"), h("p", {}, "The campaign.toml describes the logs."), h("details", {}, h("summary", {}, "campaign.toml"), h("pre", { tabindex: 0, role: "group", "aria-label": "campaign.toml" }, campaign.text))]
         : [];
       put(this.element, ...given);
       return;
@@ -50,7 +50,7 @@ export class Channels {
       h("div", { class: "form" }, ...this.roles(first, setup)),
       this.constants(setup),
       this.more(first, setup),
-      h("details", {}, h("summary", {}, "campaign.toml of this"), h("pre", {}, campaign.text)),
+      h("details", {}, h("summary", {}, "campaign.toml of this"), h("pre", { tabindex: 0, role: "group", "aria-label": "campaign.toml" }, campaign.text)),
       first.notes.length > 0 ? h("ul", { class: "notes" }, ...first.notes.map((note) => h("li", {}, note))) : null,
     );
     for (const [k, details] of this.element.querySelectorAll("details").entries()) details.open = open[k] ?? false;

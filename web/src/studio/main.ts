@@ -60,7 +60,7 @@ function render(): void {
 }
 
 async function begin(): Promise<void> {
-  document.body.append(h("header", {}, h("strong", {}, "lissom studio"), bar), message, content);
+  document.body.append(h("header", {}, h("h1", {}, "lissom studio"), bar), message, content);
   store.listen(render);
   try {
     await enter();

@@ -22,6 +22,8 @@ export class Results {
   readonly element = h("section", { "aria-label": "Results" });
   private readonly report = h("article", { class: "report" });
   private shown = 0;
+  /** What is on the page. */
+  private key = "";
 
   constructor(private readonly store: Store) {}
 
@@ -36,10 +38,15 @@ export class Results {
     if (!result) {
       put(this.element, h("p", {}, "There is no result yet: open logs and identify them."));
       this.report.replaceChildren();
+      this.key = "";
       return;
     }
-    const isNew = this.report.dataset["id"] !== String(result.id);
     this.shown = result.id;
+    // A list that is open stays so while nothing else is to be shown.
+    const key = JSON.stringify([results.map(({ id }) => id), result.id]);
+    if (key === this.key) return;
+    this.key = key;
+    const isNew = this.report.dataset["id"] !== String(result.id);
     const select = h("select", { id: "result", "aria-label": "result" });
     for (const each of [...results].reverse()) select.append(new Option(title(each), String(each.id)));
     select.value = String(result.id);

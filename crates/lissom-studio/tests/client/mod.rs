@@ -9,20 +9,20 @@ use std::thread;
 use lissom_studio::{Studio, StudioOptions};
 use serde_json::Value;
 
-pub struct Client {
-    pub port: u16,
-    pub token: String,
-    pub key: String,
+pub(crate) struct Client {
+    pub(crate) port: u16,
+    pub(crate) token: String,
+    pub(crate) key: String,
 }
 
-pub struct Answer {
-    pub status: u16,
-    pub head: String,
-    pub body: String,
+pub(crate) struct Answer {
+    pub(crate) status: u16,
+    pub(crate) head: String,
+    pub(crate) body: String,
 }
 
 /// Options with a folder.
-pub fn options(folder: &Path) -> StudioOptions {
+pub(crate) fn options(folder: &Path) -> StudioOptions {
     let mut options = StudioOptions::default();
     options.folder = Some(folder.to_owned());
     options
@@ -30,7 +30,7 @@ pub fn options(folder: &Path) -> StudioOptions {
 
 impl Client {
     /// Starts a server, and does not enter it.
-    pub fn outside(options: &StudioOptions) -> Self {
+    pub(crate) fn outside(options: &StudioOptions) -> Self {
         let studio = Studio::open(options).unwrap();
         let (before, token) = studio.address().split_once("/#").unwrap();
         let port = before.rsplit(':').next().unwrap().parse().unwrap();
@@ -40,7 +40,7 @@ impl Client {
     }
 
     /// Starts a server, and exchanges the token for a key.
-    pub fn new(options: &StudioOptions) -> Self {
+    pub(crate) fn new(options: &StudioOptions) -> Self {
         let mut client = Self::outside(options);
         let body = format!("{{\"token\":\"{}\"}}", client.token);
         let json = [("Content-Type", "application/json")];
@@ -51,7 +51,7 @@ impl Client {
     }
 
     /// A request with a host and these headers, and no others.
-    pub fn raw(&self, method: &str, path: &str, headers: &[(&str, &str)], body: &[u8]) -> Answer {
+    pub(crate) fn raw(&self, method: &str, path: &str, headers: &[(&str, &str)], body: &[u8]) -> Answer {
         let mut head = format!("{method} {path} HTTP/1.1\r\nConnection: close\r\n");
         if !headers.iter().any(|(name, _)| *name == "Host") {
             let _ = write!(head, "Host: 127.0.0.1:{}\r\n", self.port);
@@ -73,17 +73,17 @@ impl Client {
     }
 
     /// A request with the key.
-    pub fn send(&self, method: &str, path: &str, body: &[u8]) -> Answer {
+    pub(crate) fn send(&self, method: &str, path: &str, body: &[u8]) -> Answer {
         let headers = [("X-Lissom-Key", self.key.as_str()), ("Content-Type", "application/json")];
         self.raw(method, path, &headers, body)
     }
 
-    pub fn state(&self) -> Value {
+    pub(crate) fn state(&self) -> Value {
         self.send("GET", "/api/state", b"").json()
     }
 
     /// Changes the setup, as one page after the other.
-    pub fn setup(&self, change: impl FnOnce(&mut Value)) -> Answer {
+    pub(crate) fn setup(&self, change: impl FnOnce(&mut Value)) -> Answer {
         let mut state = self.state();
         change(&mut state["setup"]);
         let body = serde_json::json!({ "revision": state["revision"], "setup": state["setup"] });
@@ -91,7 +91,7 @@ impl Client {
     }
 
     /// Identifies, and waits for the end.
-    pub fn identify(&self) -> Value {
+    pub(crate) fn identify(&self) -> Value {
         let body = serde_json::json!({ "revision": self.state()["revision"] }).to_string();
         let answer = self.send("POST", "/api/job", body.as_bytes());
         assert_eq!(answer.status, 200, "{}", answer.body);
@@ -106,7 +106,7 @@ impl Client {
 }
 
 impl Answer {
-    pub fn json(&self) -> Value {
+    pub(crate) fn json(&self) -> Value {
         serde_json::from_str(&self.body).unwrap_or_else(|_| panic!("{} {}", self.status, self.body))
     }
 }
