@@ -2,7 +2,7 @@
 
 use std::f64::consts::TAU;
 
-use lissom::identify::{Identified, RunKind, TorqueRun, Validation, ValidationOptions, validate};
+use lissom::identify::{Identified, LogPrediction, RunKind, TorqueRun, predict_logs};
 use lissom::record::Campaign;
 use lissom::spectrum::Harmonics;
 use lissom_io::{UnitNames, channel_name_unit};
@@ -17,13 +17,13 @@ const TERMS: [Role; 4] = [Role::Other(0), Role::Other(1), Role::Other(2), Role::
 pub(crate) type ByRun = Vec<(String, StackedPlot)>;
 
 /// Predicts the logs that a result is from; `None` if its estimates do not make an arm, or if that cannot be simulated.
-pub fn own_logs(campaign: &Campaign, id: &Identified) -> Option<Validation> {
-    validate(id.arm.as_ref()?, campaign, &ValidationOptions::default()).ok()
+pub fn own_logs(campaign: &Campaign, id: &Identified) -> Option<LogPrediction> {
+    predict_logs(id.arm.as_ref()?, campaign).ok()
 }
 
 /// For each run: measured and predicted motion of each channel, its residual, and the terms of the torque. The run with the
 /// largest residual torque comes first.
-pub(crate) fn motion_figures(campaign: &Campaign, found: &Validation) -> ByRun {
+pub(crate) fn motion_figures(campaign: &Campaign, found: &LogPrediction) -> ByRun {
     let mut order: Vec<usize> = (0..campaign.runs.len()).collect();
     let error = |run: usize| torque_of(found, run).and_then(|t| t.relative_error).unwrap_or(0.0);
     order.sort_by(|a, b| error(*b).total_cmp(&error(*a)));
@@ -44,14 +44,14 @@ pub(crate) fn motion_figures(campaign: &Campaign, found: &Validation) -> ByRun {
     order.into_iter().filter_map(figure).collect()
 }
 
-fn torque_of(found: &Validation, run: usize) -> Option<&TorqueRun> {
+fn torque_of(found: &LogPrediction, run: usize) -> Option<&TorqueRun> {
     found.torque.as_ref()?.runs.iter().find(|torque| torque.run == run)
 }
 
 /// Measured and predicted motion of a channel, and their difference; `None` if nothing is predicted.
 fn motion(
     campaign: &Campaign,
-    found: &Validation,
+    found: &LogPrediction,
     index: usize,
     channel: usize,
 ) -> Option<[LinePlot; 2]> {
@@ -114,7 +114,7 @@ fn torque_axis(names: UnitNames) -> Axis {
 }
 
 /// One cycle of each sinusoidal run in its middle: the motion, and the friction with the torque.
-pub(crate) fn cycle_figures(campaign: &Campaign, id: &Identified, found: &Validation) -> ByRun {
+pub(crate) fn cycle_figures(campaign: &Campaign, id: &Identified, found: &LogPrediction) -> ByRun {
     let names = UnitNames::new(&campaign.channels);
     let figure = |(index, run): (usize, &lissom::record::Run)| {
         let RunKind::Sinusoidal(sine) = &id.runs.get(index)?.kind else { return None };

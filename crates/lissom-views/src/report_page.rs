@@ -1,6 +1,6 @@
 //! The report page: one self-contained HTML document.
 
-use lissom::identify::{Finding, GeometryCheck, Identified, Severity, Validation};
+use lissom::identify::{Finding, GeometryCheck, Identified, LogPrediction, Severity};
 use lissom::record::Campaign;
 use lissom_io::UnitNames;
 use lissom_report::{
@@ -33,7 +33,7 @@ pub fn page(
     title: &str,
     campaign: &Campaign,
     id: &Identified,
-    own: Option<&Validation>,
+    own: Option<&LogPrediction>,
     reference: Option<&Reference>,
     described: Option<&GeometryCheck>,
     hints: ProgramHints,
@@ -130,7 +130,7 @@ fn motion_section(
     mut page: Page,
     campaign: &Campaign,
     id: &Identified,
-    own: Option<&Validation>,
+    own: Option<&LogPrediction>,
 ) -> Page {
     if let Some(own) = own {
         let motion = own_logs::motion_figures(campaign, own);

@@ -16,6 +16,7 @@ use crate::shared::command_hint::PAGE_HINTS;
 use crate::shared::exit_codes::ExitCode;
 use crate::shared::failure::Failure;
 use crate::shared::output_guard;
+use crate::shared::progress_bar::during;
 use crate::tasks::described_logs::{is_toml, notes};
 use crate::tasks::identification::{Asked, first_answer, identified};
 use crate::views::{
@@ -51,11 +52,12 @@ pub(crate) fn run(args: &IdentifyArgs) -> Result<ExitCode, Failure> {
     let mut batch = Batch::new();
     if let Some(path) = &args.report {
         let title = name.display().to_string();
+        let own = during("prediction for the report page", || own_logs(&file.campaign, &id));
         let page = report_page::page(
             &title,
             &file.campaign,
             &id,
-            own_logs(&file.campaign, &id).as_ref(),
+            own.as_ref(),
             reference,
             geometry.as_ref(),
             PAGE_HINTS,

@@ -13,6 +13,7 @@ use crate::shared::command_hint::PAGE_HINTS;
 use crate::shared::exit_codes::ExitCode;
 use crate::shared::failure::Failure;
 use crate::shared::output_guard;
+use crate::shared::progress_bar::during;
 use crate::tasks::demo_comparison::{compared, comparison};
 use crate::tasks::identification::{Asked, identified};
 use crate::views::{demo_table, plot_file, printer};
@@ -40,7 +41,7 @@ pub(crate) fn run(args: &DemoArgs) -> Result<ExitCode, Failure> {
     let mut batch = Batch::new();
     plot_file::add_all(&mut batch, out, &result_figures(channels, &id, Some(&truth)))?;
     batch.commit()?;
-    let own = own_logs(&file.campaign, &id);
+    let own = during("prediction for the report page", || own_logs(&file.campaign, &id));
     let (own, truth) = (own.as_ref(), Some(&truth));
     let page = report_page::page("lissom demo", &file.campaign, &id, own, truth, None, PAGE_HINTS);
     write::write_text(&out.join("report.html"), &page.to_html())?;
