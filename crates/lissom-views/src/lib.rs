@@ -10,6 +10,7 @@
 //! | [`result_figures()`] | an identification: Bode plots, friction against speed |
 //! | [`parameter_rows()`] | an identification: one row for each parameter |
 //! | [`validation_plots()`] | the prediction of another log |
+//! | [`compare_page::page`] | results side by side, as a page |
 //! | [`equivalent_plots`], [`equivalent_section`] | an equivalent arm |
 //! | [`payload_plot`] | a prediction with other payloads |
 //! | `fleet_page` (feature `fleet`) | a fleet |
@@ -41,6 +42,8 @@
 
 pub mod arm_check;
 pub mod bode_plots;
+pub mod compare_page;
+pub mod compare_words;
 pub mod digits;
 pub mod equivalent_plots;
 pub mod equivalent_section;
