@@ -165,7 +165,10 @@ fn a_comparison_has_a_page() {
     lissom(at, &["identify", "others/campaign.toml", "--quick", "--json", "other.json"]);
     let table = done(at, &["compare", "result.json", "other.json", "--report", "compared.html"]);
     let page = read(at, "compared.html");
-    assert!(page.contains("class=\"forest\"") && page.contains("95 % intervals, A ±"), "{page}");
+    assert!(
+        page.contains("class=\"forest\"") && page.contains("95 % intervals relative to A"),
+        "{page}"
+    );
     let words = if table.contains("No parameter of B differs clearly from A") {
         "No parameter of B differs clearly from A"
     } else {

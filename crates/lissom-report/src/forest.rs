@@ -2,6 +2,8 @@
 
 use std::fmt::Write as _;
 
+use lissom_text::significant;
+
 use crate::html::escape;
 use crate::page_parts::KeyFigure;
 
@@ -15,6 +17,8 @@ const END: f64 = 4.0;
 const MOST: f64 = 0.5;
 /// Width of the names of results.
 const NAME: f64 = 24.0;
+/// Width of the end of an axis in words.
+const SCALE: f64 = 70.0;
 /// Relative deviations below are drawn as this.
 const LEAST: f64 = 1e-6;
 
@@ -34,17 +38,21 @@ impl ForestAxis {
         any.then_some(Self(if most > 0.0 { nice(most) } else { MOST }))
     }
 
-    /// The axis of results side by side, relative to the first one. None without a bar.
-    pub(crate) fn of_rows(rows: &[Vec<Option<[f64; 3]>>]) -> Option<Self> {
-        let all = || rows.iter().filter_map(|row| relative_to_first(row)).flatten().flatten();
-        let most = all().flatten().map(f64::abs).filter(|size| *size <= MOST).fold(0.0, f64::max);
-        all().next().map(|_| Self(if most > 0.0 { nice(most) } else { MOST }))
+    /// The axis of a parameter in several results, relative to the first one.
+    fn of_bars(bars: &[Option<[f64; 3]>]) -> Self {
+        let sizes = bars.iter().flatten().flatten().map(|end| end.abs());
+        let most = sizes.filter(|size| *size <= MOST).fold(0.0, f64::max);
+        Self(if most > 0.0 { nice(most) } else { MOST })
     }
 
-    /// A row's picture with a bar for each result, from above; none without a first result.
-    pub(crate) fn side_by_side(self, names: &[String], row: &[Option<[f64; 3]>]) -> Option<String> {
+    /// A picture of a parameter with a bar for each result, from above, and the end of its axis; none without a first result.
+    pub(crate) fn side_by_side(names: &[String], row: &[Option<[f64; 3]>]) -> Option<String> {
         let bars = relative_to_first(row)?;
-        let width = NAME + SIZE.0;
+        Some(Self::of_bars(&bars).picture(names, &bars))
+    }
+
+    fn picture(self, names: &[String], bars: &[Option<[f64; 3]>]) -> String {
+        let width = NAME + SIZE.0 + SCALE;
         let height = SIZE.1 * bars.len() as f64;
         let center = NAME + SIZE.0 / 2.0;
         let reach = SIZE.0 / 2.0 - MARGIN;
@@ -76,8 +84,14 @@ impl ForestAxis {
                 let _ = write!(svg, "<circle cx=\"{:.1}\" cy=\"{middle}\" r=\"3\"/>", at(*value));
             }
         }
-        svg.push_str("</svg>");
-        Some(svg)
+        let _ = write!(
+            svg,
+            "<text x=\"{}\" y=\"{:.1}\" font-size=\"11\" fill=\"currentColor\">± {} %</text></svg>",
+            NAME + SIZE.0,
+            height / 2.0 + END,
+            significant(100.0 * self.0, 1)
+        );
+        svg
     }
 
     /// Draws the end of a bar, an arrow if the deviation is beyond the axis.
@@ -191,18 +205,17 @@ mod tests {
     fn results_are_drawn_relative_to_the_first() {
         let names = ["A", "B"].map(str::to_owned);
         let row = [Some([1.99, 2.0, 2.01]), Some([2.06, 2.08, 2.1])];
-        let axis = ForestAxis::of_rows(&[row.to_vec(), vec![None, row[0]]]).unwrap();
-        assert_eq!(axis.percent(), "5");
-        let svg = axis.side_by_side(&names, &row).unwrap();
+        let picture = |row: &[Option<[f64; 3]>]| ForestAxis::side_by_side(&names, row);
+        let svg = picture(&row).unwrap();
+        assert!(svg.contains(">± 5 %</text>"), "{svg}");
         // 52 units are 5 %: B is 4 % above A, whose value is at 84.
         assert!(svg.contains(r#"<circle cx="84.0" cy="9" r="3"/>"#), "{svg}");
         assert!(svg.contains(r#"<circle cx="125.6" cy="27" r="3"/>"#), "{svg}");
-        assert_eq!(axis.side_by_side(&names, &[None, row[0]]), None);
-        assert_eq!(ForestAxis::of_rows(&[vec![None]]), None);
+        assert_eq!(picture(&[None, row[0]]), None);
         // Nothing is relative to a value that may be zero.
-        assert_eq!(axis.side_by_side(&names, &[Some([-0.1, 0.1, 0.3]), row[0]]), None);
+        assert_eq!(picture(&[Some([-0.1, 0.1, 0.3]), row[0]]), None);
         // A bar beyond the axis is an arrow: its end is at 136, and no circle is drawn.
-        let far = axis.side_by_side(&names, &[row[0], Some([2.9, 3.0, 3.1])]).unwrap();
-        assert!(far.contains("M136.0 27H136.0M132.0 23L136.0 27L132.0 31\"/></svg>"), "{far}");
+        let far = picture(&[row[0], Some([3.1, 3.2, 3.3])]).unwrap();
+        assert!(far.contains("H136.0M132.0 23L136.0 27L132.0 31\"/><text"), "{far}");
     }
 }

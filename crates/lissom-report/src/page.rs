@@ -153,14 +153,14 @@ impl Page {
         names: &[String],
         intervals: &[Vec<Option<[f64; 3]>>],
     ) -> Self {
-        let Some(axis) = ForestAxis::of_rows(intervals) else { return self.table(table) };
         let mut table = table.clone();
-        table.columns.push((format!("95 % intervals, A ± {} %", axis.percent()), Cells::Text));
+        let first = names.first().map_or("", String::as_str);
+        table.columns.push((format!("95 % intervals relative to {first}"), Cells::Text));
         let nothing = Vec::new();
         let rows = table.rows.iter().enumerate().map(|(k, row)| {
             let mut cells: Vec<String> = row.iter().map(|cell| escape(cell)).collect();
             cells.resize(table.columns.len() - 1, String::new());
-            let picture = axis.side_by_side(names, intervals.get(k).unwrap_or(&nothing));
+            let picture = ForestAxis::side_by_side(names, intervals.get(k).unwrap_or(&nothing));
             cells.push(picture.unwrap_or_default());
             cells
         });
