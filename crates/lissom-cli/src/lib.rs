@@ -23,7 +23,7 @@ use crate::commands::studio_command;
 use crate::commands::{
     check_command, compare_command, completions_command, demo, equivalent, export_command,
     identify_command, init_command, inspect_command, man_command, model_command, payload_command,
-    plan, report_figures, rig, thresholds_command, validate_command,
+    plan, plot_command, report_command, report_figures, rig, thresholds_command, validate_command,
 };
 use crate::shared::exit_codes::ExitCode;
 use crate::views::printer;
@@ -44,6 +44,8 @@ pub fn run(arguments: impl IntoIterator<Item = OsString>, own: &[OsString]) -> u
         Command::Check(args) => check_command::run(&args),
         #[cfg(feature = "fleet")]
         Command::Fleet(args) => fleet_command::run(&args, own),
+        Command::Plot(args) => plot_command::run(&args),
+        Command::Report(args) => report_command::run(&args),
         Command::Compare(args) => compare_command::run(&args),
         Command::Export(args) => export_command::run(&args),
         Command::Equivalent(args) => equivalent::run(&args),

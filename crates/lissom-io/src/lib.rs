@@ -59,6 +59,7 @@ pub use config::{ConfigError, ConfigPlace, Rule};
 pub use io_error::Error;
 pub use log::LogError;
 pub use model::{FrequencyError, Model, ModelFile, read_frequencies};
+pub use nearest::nearest;
 pub use plan::{PlanError, PlanFile, PlanRun};
 pub use planned::PlannedFile;
 pub use read_text::read_text;

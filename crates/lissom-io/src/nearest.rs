@@ -4,10 +4,7 @@
 const LONGEST: usize = 64;
 
 /// The candidate most similar to `wanted`, if it is similar enough for a hint.
-pub(crate) fn nearest<'a>(
-    wanted: &str,
-    candidates: impl IntoIterator<Item = &'a str>,
-) -> Option<String> {
+pub fn nearest<'a>(wanted: &str, candidates: impl IntoIterator<Item = &'a str>) -> Option<String> {
     let length = wanted.chars().count();
     if length > LONGEST {
         return None;

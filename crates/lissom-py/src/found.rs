@@ -3,10 +3,11 @@
 use std::path::Path;
 use std::sync::Arc;
 
-use lissom::io::{CampaignFile, PayloadFile, write};
+use lissom::io::{CampaignFile, PayloadFile, ResultFile, write};
 use lissom::{EquivalentInput, Found, Payloads, predict_payload};
 use lissom_views::known_arm::checked;
-use lissom_views::{ProgramHints, Reference, own_logs, report_page, result_figures};
+use lissom_views::report_page::{self, PageContent};
+use lissom_views::{ProgramHints, Reference, own_logs, result_figures};
 use pyo3::prelude::*;
 use pyo3::types::PyBytes;
 
@@ -45,10 +46,12 @@ impl NativeFound {
         worker::wait(py, move || {
             let (campaign, id) = (&file.campaign, found.identified());
             let described = checked(id, reference.as_ref());
-            let (reference, described) = (reference.as_ref(), described.as_ref());
-            let own = own_logs(campaign, id);
-            let (own, hints) = (own.as_ref(), ProgramHints::NONE);
-            Ok(report_page::page(&title, campaign, id, own, reference, described, hints).to_html())
+            let result = &ResultFile::of(&campaign.channels, id, described.as_ref());
+            let own = own_logs(campaign, id.arm.as_ref());
+            let logs = own.as_ref().map(|own| (campaign, own));
+            let (reference, hints) = (reference.as_ref(), &ProgramHints::NONE);
+            let content = PageContent { result, logs, reference, hints };
+            Ok(report_page::page(&title, content).to_html())
         })
     }
 
@@ -88,8 +91,7 @@ impl NativeFound {
     fn figures(&self, py: Python<'_>) -> PyResult<Vec<(String, String)>> {
         let reference = self.reference(py)?;
         let figures = || {
-            let (channels, id) = (&self.file.campaign.channels, self.found.identified());
-            let all = result_figures(channels, id, reference.as_ref()).into_iter();
+            let all = result_figures(&self.found.file(), reference.as_ref()).into_iter();
             all.map(|f| Ok((f.name, f.figure.to_svg().map_err(|error| error.to_string())?)))
                 .collect()
         };

@@ -13,6 +13,7 @@ use crate::legend::{Entry, Sample, header, skipped_note};
 use crate::marks::{Mark, with_bars};
 use crate::palette::FAINT_INK;
 use crate::panel::{Panel, TICK_SIZE, X_AXIS_HEIGHT};
+use crate::pdf_writer::pdf;
 use crate::phase::{Track, unwrap_together};
 use crate::png_writer::png;
 use crate::scale::{Scale, extent};
@@ -306,6 +307,10 @@ impl Figure for BodePlot {
 
     fn to_png(&self, scale: f32) -> Result<Vec<u8>, FigureError> {
         png(&self.drawing()?, scale)
+    }
+
+    fn to_pdf(&self) -> Result<Vec<u8>, FigureError> {
+        Ok(pdf(&self.drawing()?))
     }
 }
 

@@ -6,7 +6,7 @@ use crate::figure_error::FigureError;
 /// Keeps [`Figure`] to this crate, whose SVG has no ids that could clash on a page.
 pub trait Sealed {}
 
-/// A figure that can be drawn as SVG or PNG and put on a [`Page`](crate::Page).
+/// A figure that can be drawn as SVG, PNG or PDF and put on a [`Page`](crate::Page).
 ///
 /// The SVG is complete in itself: no ids, no style sheet, no script, no reference to anything outside.
 pub trait Figure: Sealed {
@@ -34,4 +34,13 @@ pub trait Figure: Sealed {
     /// Those of [`to_svg`](Self::to_svg), [`FigureError::Size`] when the picture would have no pixel or a side of more
     /// than 16384, [`FigureError::Png`] when the encoder fails.
     fn to_png(&self, scale: f32) -> Result<Vec<u8>, FigureError>;
+
+    /// Draws the figure as a PDF of one page with vector graphics, 0.75 pt to one SVG unit, and returns the bytes of the file.
+    ///
+    /// Text is drawn as outlines of DejaVu Sans, so that no font is needed.
+    ///
+    /// # Errors
+    ///
+    /// Those of [`to_svg`](Self::to_svg).
+    fn to_pdf(&self) -> Result<Vec<u8>, FigureError>;
 }

@@ -7,7 +7,7 @@
 //! - [`StackedPlot`]: line plots one above the other over one horizontal axis;
 //! - [`Page`]: headings, tables, figures and findings as one HTML file that loads nothing else.
 //!
-//! All plots implement [`Figure`] and draw themselves as SVG and as PNG. The text of the PNG uses the compiled-in font
+//! All plots implement [`Figure`] and draw themselves as SVG, PNG and PDF. The text of PNG and PDF uses the compiled-in font
 //! DejaVu Sans, so that a picture looks the same on every machine, whether it has fonts or not.
 //!
 //! ```
@@ -40,6 +40,7 @@ mod page;
 mod page_parts;
 mod palette;
 mod panel;
+mod pdf_writer;
 mod phase;
 mod png_writer;
 mod scale;

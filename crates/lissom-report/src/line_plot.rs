@@ -10,6 +10,7 @@ use crate::legend::{Entry, Sample, header, skipped_note};
 use crate::marks::{Mark, with_bars};
 use crate::palette::{DASHES, FAINT_INK, INK, Role, SHADE, WHITE};
 use crate::panel::{LINE_WIDTH, Panel, TICK_SIZE, X_AXIS_HEIGHT};
+use crate::pdf_writer::pdf;
 use crate::png_writer::png;
 use crate::scale::{Scale, extent};
 use crate::svg_writer::svg;
@@ -347,6 +348,10 @@ impl Figure for LinePlot {
 
     fn to_png(&self, scale: f32) -> Result<Vec<u8>, FigureError> {
         png(&self.drawing()?, scale)
+    }
+
+    fn to_pdf(&self) -> Result<Vec<u8>, FigureError> {
+        Ok(pdf(&self.drawing()?))
     }
 }
 

@@ -144,6 +144,30 @@ impl Page {
         self.put(&table_html(table, &rows, ""))
     }
 
+    /// A table of results side by side with a picture of their 95 % intervals, relative to the first one, in a last column.
+    /// `intervals` has a row for each row of the table: for each result low end, value and high end.
+    #[must_use]
+    pub fn interval_table(
+        self,
+        table: &Table,
+        names: &[String],
+        intervals: &[Vec<Option<[f64; 3]>>],
+    ) -> Self {
+        let mut table = table.clone();
+        let first = names.first().map_or("", String::as_str);
+        table.columns.push((format!("95 % intervals relative to {first}"), Cells::Text));
+        let nothing = Vec::new();
+        let rows = table.rows.iter().enumerate().map(|(k, row)| {
+            let mut cells: Vec<String> = row.iter().map(|cell| escape(cell)).collect();
+            cells.resize(table.columns.len() - 1, String::new());
+            let picture = ForestAxis::side_by_side(names, intervals.get(k).unwrap_or(&nothing));
+            cells.push(picture.unwrap_or_default());
+            cells
+        });
+        let rows: Vec<Vec<String>> = rows.collect();
+        self.put(&table_html(&table, &rows, ""))
+    }
+
     /// A figure with its caption; if it cannot be drawn, the page shows the reason instead.
     #[must_use]
     pub fn figure<F: Figure + ?Sized>(mut self, figure: &F, caption: &str) -> Self {

@@ -5,6 +5,7 @@ use crate::figure_data::FigureData;
 use crate::figure_error::FigureError;
 use crate::figure_trait::{Figure, Sealed};
 use crate::line_plot::{LinePlot, sheet, sheet_data};
+use crate::pdf_writer::pdf;
 use crate::png_writer::png;
 use crate::svg_writer::svg;
 
@@ -80,6 +81,10 @@ impl Figure for StackedPlot {
 
     fn to_png(&self, scale: f32) -> Result<Vec<u8>, FigureError> {
         png(&self.drawing()?, scale)
+    }
+
+    fn to_pdf(&self) -> Result<Vec<u8>, FigureError> {
+        Ok(pdf(&self.drawing()?))
     }
 }
 

@@ -13,7 +13,8 @@ use lissom_io::inspect::{Description, Inspection};
 use lissom_io::{CampaignFile, CampaignReader, ResultFile, UnitNames, write};
 use lissom_text::with_uncertainty;
 use lissom_views::known_arm::checked;
-use lissom_views::{ProgramHints, Reference, own_logs, parameter_rows, report_page};
+use lissom_views::report_page::{self, PageContent};
+use lissom_views::{ProgramHints, Reference, own_logs, parameter_rows};
 
 use crate::app::Shared;
 use crate::job::{FirstRow, Job};
@@ -27,7 +28,12 @@ const STAGES: usize = 4;
 /// Where the logs come from.
 enum Logs {
     /// Logs, and what is said about them.
-    Described { first: Inspection, folder: PathBuf, files: Vec<PathBuf>, said: Description },
+    Described {
+        first: Box<Inspection>,
+        folder: PathBuf,
+        files: Vec<PathBuf>,
+        said: Box<Description>,
+    },
     /// A campaign.toml; confined to its folder if the browser sent it.
     Campaign { path: PathBuf, confined: bool },
 }
@@ -67,16 +73,16 @@ fn logs(app: &Shared, session: &Session) -> Result<Logs, Problem> {
     let Some(first) = session.used_logs().next() else {
         return Err(Problem::input("there is no log", Some("add a log first".to_owned())));
     };
-    let first = app.log(session, first)?.inspection.clone();
+    let first = Box::new(app.log(session, first)?.inspection.clone());
     let said = session.setup.description(session, &first)?;
-    Ok(Logs::Described { first, folder: app.folder.logs(), files, said })
+    Ok(Logs::Described { first, folder: app.folder.logs(), files, said: Box::new(said) })
 }
 
 /// Reads the logs; also returns the text of their campaign.toml.
 fn read(logs: Logs) -> Result<(CampaignFile, String), Problem> {
     match logs {
         Logs::Described { first, folder, files, said } => {
-            let described = DescribedLogs::in_folder(first, &folder, &files, &said)?;
+            let described = DescribedLogs::in_folder(*first, &folder, &files, &said)?;
             let file = described.read()?;
             Ok((file, described.draft.commented()))
         }
@@ -99,13 +105,13 @@ fn made(session: &Session, logs: Logs, job: &Job) -> Result<Made, Problem> {
     };
     refuse_if_dropped(job)?;
     let stages = file.campaign.runs.len() + STAGES;
-    if effort != Effort::Quick {
+    if effort == Effort::Quick {
+        job.first(Vec::new(), stages);
+    } else {
         job.step("first result, without a search");
         let first = found(Effort::Quick, Interrupt::default(), &|_| ())?;
         refuse_if_dropped(job)?;
         job.first(first_rows(&file, &first), stages);
-    } else {
-        job.first(Vec::new(), stages);
     }
     let id = found(effort, job.interrupt.clone(), &|stage| job.stage(stage))?;
     job.step("report");
@@ -113,15 +119,14 @@ fn made(session: &Session, logs: Logs, job: &Job) -> Result<Made, Problem> {
     let geometry = checked(&id, reference.as_ref());
     let result = ResultFile::of(&file.campaign.channels, &id, geometry.as_ref());
     let name = name(session);
-    let page = report_page::page(
-        &name,
-        &file.campaign,
-        &id,
-        own_logs(&file.campaign, &id).as_ref(),
-        reference.as_ref(),
-        geometry.as_ref(),
-        ProgramHints::NONE,
-    );
+    let own = own_logs(&file.campaign, id.arm.as_ref());
+    let content = PageContent {
+        result: &result,
+        logs: own.as_ref().map(|own| (&file.campaign, own)),
+        reference: reference.as_ref(),
+        hints: &ProgramHints::NONE,
+    };
+    let page = report_page::page(&name, content);
     let count = |severity| id.findings.iter().filter(|f| f.severity() == severity).count();
     let made = SystemTime::now().duration_since(UNIX_EPOCH).unwrap_or_default();
     Ok(Made {
@@ -167,7 +172,8 @@ fn name(session: &Session) -> String {
 }
 
 fn first_rows(file: &CampaignFile, id: &Identified) -> Vec<FirstRow> {
-    let rows = parameter_rows(UnitNames::new(&file.campaign.channels), id, None);
+    let channels = &file.campaign.channels;
+    let rows = parameter_rows(UnitNames::new(channels), &ResultFile::of(channels, id, None), None);
     let row = |row: lissom_views::parameter_rows::ParameterRow| {
         let value = row.estimate.map(|e| with_uncertainty(e.value, e.std));
         let value = value.unwrap_or_else(|| "refused".to_owned());

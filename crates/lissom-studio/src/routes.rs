@@ -10,6 +10,7 @@ use axum::response::{IntoResponse, Response};
 use axum::routing::{delete, get, post, put};
 use axum::{Json, Router, middleware};
 use lissom_io::{ComparedFile, read_result};
+use lissom_views::compare_page;
 use serde::{Deserialize, Serialize};
 
 use crate::access;
@@ -292,9 +293,12 @@ fn result_folder(app: &Shared, id: u64) -> Result<std::path::PathBuf, Problem> {
 }
 
 async fn report(State(app): State<Shared>, Path(id): Path<u64>) -> Result<Response, Problem> {
-    let text = in_thread(move || exports::report(&result_folder(&app, id)?)).await?;
-    // As plain text: nothing of it may run if a browser opens it by itself.
-    Ok(([(CONTENT_TYPE, "text/plain; charset=utf-8")], text).into_response())
+    Ok(fragment(in_thread(move || exports::report(&result_folder(&app, id)?)).await?))
+}
+
+/// A part of a page, as plain text: nothing of it may run if a browser opens it by itself.
+fn fragment(text: String) -> Response {
+    ([(CONTENT_TYPE, "text/plain; charset=utf-8")], text).into_response()
 }
 
 async fn result_file(
@@ -312,8 +316,11 @@ struct Chosen {
     results: String,
 }
 
-async fn compare(State(app): State<Shared>, Query(chosen): Query<Chosen>) -> Answer<ComparedFile> {
-    in_thread(move || {
+async fn compare(
+    State(app): State<Shared>,
+    Query(chosen): Query<Chosen>,
+) -> Result<Response, Problem> {
+    let text = in_thread(move || {
         let session = app.session();
         let mut lists = Vec::new();
         for text in chosen.results.split(',') {
@@ -322,7 +329,9 @@ async fn compare(State(app): State<Shared>, Query(chosen): Query<Chosen>) -> Ans
             let list = read_result(&app.folder.result(result.id).join("result.json"))?;
             lists.push((format!("{} ({})", result.name, result.id), list));
         }
-        Ok(Json(ComparedFile::of(&lists).map_err(lissom_io::Error::from)?))
+        let found = ComparedFile::of(&lists).map_err(lissom_io::Error::from)?;
+        Ok(compare_page::page("Comparison", &found).to_fragment())
     })
-    .await
+    .await?;
+    Ok(fragment(text))
 }

@@ -28,6 +28,9 @@ pub(crate) struct StateView {
     files: [&'static str; 9],
 }
 
+/// A log, or why it cannot be read.
+type ReadLog = Result<Arc<CachedLog>, Problem>;
+
 /// A file.
 #[derive(Debug, Serialize)]
 struct LogView {
@@ -55,10 +58,11 @@ struct CampaignView {
 impl StateView {
     pub(crate) fn of(app: &App) -> Self {
         let session = app.session();
-        let logs: Vec<(&LogEntry, Option<Result<Arc<CachedLog>, Problem>>)> = session
+        let is_log = |log: &LogEntry| log.kind == FileKind::Log;
+        let logs: Vec<(&LogEntry, Option<ReadLog>)> = session
             .logs
             .iter()
-            .map(|log| (log, (log.kind == FileKind::Log).then(|| app.log(&session, log))))
+            .map(|log| (log, is_log(log).then(|| app.log(&session, log))))
             .collect();
         let first = session.used_logs().next().map(|log| log.id);
         let first = logs.iter().find(|(log, _)| Some(log.id) == first);

@@ -7,6 +7,7 @@ use std::sync::Arc;
 
 use sha2::{Digest as _, Sha256};
 
+use crate::access::hex;
 use crate::app::{App, Shared};
 use crate::opener;
 use crate::routes;
@@ -130,7 +131,7 @@ fn own_folder(logs: &[(String, PathBuf)]) -> Result<PathBuf, StudioError> {
         digest.update(path.as_os_str().as_encoded_bytes());
         digest.update([0]);
     }
-    let digest: String = digest.finalize().iter().take(8).map(|b| format!("{b:02x}")).collect();
+    let digest = hex(&digest.finalize()[..8]);
     Ok(all.join(format!("{}-{digest}", uploads::plain_name(name))))
 }
 

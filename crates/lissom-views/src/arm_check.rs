@@ -1,17 +1,17 @@
 //! Comparison of the identified arm with an arm.toml, in words and as a section of the page: which number of
 //! the file explains the difference best.
 
-use lissom::identify::{ArmQuantity, Explanation, GeometryCheck};
+use lissom_io::result::{ArmQuantityName, ExplanationEntry, GeometryEntry};
 use lissom_report::{Cells, Page, Table, interval, with_uncertainty};
 
 /// Adds the comparison to the HTML page.
-pub(crate) fn section(page: Page, check: Option<&GeometryCheck>) -> Page {
+pub(crate) fn section(page: Page, check: Option<&GeometryEntry>) -> Page {
     let Some(check) = check else { return page };
     let mut page = page.heading("Comparison with arm.toml");
     for line in lines(check) {
         page = page.paragraph(&sentence(&line));
     }
-    if check.agrees() || check.explanations.is_empty() {
+    if check.agrees || check.explanations.is_empty() {
         return page;
     }
     let mut table = Table::new(
@@ -24,12 +24,12 @@ pub(crate) fn section(page: Page, check: Option<&GeometryCheck>) -> Page {
         ],
     );
     for e in &check.explanations {
-        let f = e.factor;
+        let f = &e.factor;
         table = table.row([
-            name(e.quantity),
+            name(e),
             with_uncertainty(f.value, f.std),
-            interval(f.ci95(), f.value, f.std),
-            percent(e.left),
+            interval(f.ci95, f.value, f.std),
+            percent(e.left_rms),
         ]);
     }
     page.table(&table)
@@ -43,39 +43,39 @@ fn sentence(line: &str) -> String {
 }
 
 /// The comparison in words, without a capital letter and a full stop.
-pub fn lines(check: &GeometryCheck) -> Vec<String> {
-    let before = percent(check.before);
+pub fn lines(check: &GeometryEntry) -> Vec<String> {
+    let before = percent(check.difference_rms);
     let compared = "inertia, frequencies and couplings";
-    if check.agrees() {
+    if check.agrees {
         return vec![format!("arm.toml agrees with the logs: {compared} within {before} (rms)")];
     }
     let mut text = vec![format!("{compared} differ from arm.toml by {before} (rms)")];
     let Some(best) = check.explanations.first() else { return text };
-    if best.left > 0.5 * check.before {
+    if best.left_rms > 0.5 * check.difference_rms {
         text.push(format!(
             "no single number of arm.toml explains this: if {} is {}, the difference is still {}",
-            name(best.quantity),
+            name(best),
             factor(best),
-            percent(best.left)
+            percent(best.left_rms)
         ));
         return text;
     }
-    let all: Vec<&Explanation> = check.as_good().collect();
-    for (i, explanation) in all.iter().enumerate() {
+    let good = check.explanations.iter().enumerate().filter(|(i, e)| *i == 0 || e.as_good_as_first);
+    for (i, explanation) in good {
         text.push(format!(
             "{} {} is {}; the difference is then {}",
             if i == 0 { "best explanation:" } else { "equally good:" },
-            name(explanation.quantity),
+            name(explanation),
             factor(explanation),
-            percent(explanation.left)
+            percent(explanation.left_rms)
         ));
     }
     text
 }
 
-fn factor(e: &Explanation) -> String {
-    let f = e.factor;
-    let range = interval(f.ci95(), f.value, f.std);
+fn factor(e: &ExplanationEntry) -> String {
+    let f = &e.factor;
+    let range = interval(f.ci95, f.value, f.std);
     format!(
         "{} times the value in the file (95 % interval {range})",
         with_uncertainty(f.value, f.std)
@@ -86,16 +86,16 @@ fn percent(share: f64) -> String {
     format!("{:.2} %", 100.0 * share)
 }
 
-fn name(quantity: ArmQuantity) -> String {
-    let of = |what: &str, which: Option<usize>| match which {
-        Some(i) => format!("the {what} of span {}", i + 1),
+fn name(e: &ExplanationEntry) -> String {
+    let of = |what: &str| match e.span {
+        Some(span) => format!("the {what} of span {span}"),
         None => format!("the {what} of all spans"),
     };
-    match quantity {
-        ArmQuantity::Length(which) => of("length", which),
-        ArmQuantity::Stiffness(which) => of("flexural rigidity", which),
-        ArmQuantity::Mass(which) => of("mass", which),
-        ArmQuantity::Payload => "the payload".to_owned(),
-        ArmQuantity::MotorInertia => "the motor's inertia".to_owned(),
+    match e.quantity {
+        ArmQuantityName::Length => of("length"),
+        ArmQuantityName::FlexuralRigidity => of("flexural rigidity"),
+        ArmQuantityName::Mass => of("mass"),
+        ArmQuantityName::Payload => "the payload".to_owned(),
+        ArmQuantityName::MotorInertia => "the motor's inertia".to_owned(),
     }
 }

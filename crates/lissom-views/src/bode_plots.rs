@@ -1,8 +1,8 @@
 //! Bode plots of a result.
 
-use lissom::identify::{Identified, Response};
-use lissom::record::{Channels, TipQuantity};
-use lissom_io::UnitNames;
+use lissom::lti::TransferFunction;
+use lissom_io::result::{SeriesEntry, TipQuantityName, TipResponseEntry};
+use lissom_io::{ResultFile, UnitNames};
 use lissom_report::{BodePlot, Role, Series, Style};
 use num_complex::Complex64;
 
@@ -11,64 +11,92 @@ use crate::known_arm::Reference;
 /// Number of points on the line of a model.
 const LINE: i32 = 1200;
 
+/// A point of a response.
+struct Point {
+    omega_rad_s: f64,
+    value: Complex64,
+    std: f64,
+    flagged: bool,
+}
+
 /// The plots of motor and tips, each with its file name. `reference` adds a line for a known arm.
 pub fn bode_plots(
-    channels: &Channels,
     names: UnitNames,
-    id: &Identified,
+    result: &ResultFile,
     reference: Option<&Reference>,
 ) -> Vec<(String, BodePlot)> {
-    if id.responses.is_empty() {
+    let responses = &result.frequency_response;
+    if responses.omega_rad_s.is_empty() {
         return Vec::new();
     }
-    let mut plots = vec![("bode-motor".to_owned(), motor(names, id, reference))];
-    for (i, tip) in channels.tips.iter().enumerate() {
-        if id.responses.iter().any(|p| p.tips.get(i).is_some_and(Option::is_some)) {
+    let mut plots = vec![("bode-motor".to_owned(), motor(names, result, reference))];
+    for (i, tip) in responses.tips.iter().enumerate() {
+        let points = points(result, &tip.series);
+        if !points.is_empty() {
             let file = format!("bode-tip-{}", i + 1);
-            plots.push((file, tip_plot(i, &tip.name, tip.quantity, id, reference)));
+            plots.push((file, tip_plot(i, tip, &points, result, reference)));
         }
     }
     plots
 }
 
-fn motor(names: UnitNames, id: &Identified, reference: Option<&Reference>) -> BodePlot {
-    let points = &id.responses;
-    let omega: Vec<f64> = points.iter().map(|p| p.omega_rad_s).collect();
+/// The points of a response that have a value.
+fn points(result: &ResultFile, series: &SeriesEntry) -> Vec<Point> {
+    let responses = &result.frequency_response;
+    let point = |(k, omega_rad_s): (usize, &f64)| {
+        let at = |list: &[Option<f64>]| list.get(k).copied().flatten();
+        let value = Complex64::new(at(&series.re)?, at(&series.im)?);
+        let flagged = responses.flagged.get(k).copied().unwrap_or(false);
+        Some(Point { omega_rad_s: *omega_rad_s, value, std: at(&series.std)?, flagged })
+    };
+    responses.omega_rad_s.iter().enumerate().filter_map(point).collect()
+}
+
+/// A transfer function of a result.
+pub(crate) fn function(num: &[f64], den: &[f64]) -> TransferFunction {
+    TransferFunction { num: num.to_vec(), den: den.to_vec() }
+}
+
+/// The line of a model with a delay.
+fn line(function: &TransferFunction, delay_s: f64, grid: &[f64]) -> Vec<Complex64> {
+    let at = |w: &f64| function.response(*w) * Complex64::cis(-w * delay_s);
+    grid.iter().map(at).collect()
+}
+
+fn motor(names: UnitNames, result: &ResultFile, reference: Option<&Reference>) -> BodePlot {
     let unit = format!("{}/{}", names.angle(), names.command_unit());
     let title = format!("Motor: {} per {}", names.motion(), names.command_name());
-    let raw: Vec<Complex64> = points.iter().map(|p| p.motor_raw.value).collect();
+    let responses = &result.frequency_response;
+    let raw = points(result, &responses.motor_raw);
     let mut plot = BodePlot::new(title, unit).series(Series::new(
         "as measured",
         Role::Raw,
         Style::Points,
-        omega,
-        raw,
+        raw.iter().map(|p| p.omega_rad_s).collect(),
+        raw.iter().map(|p| p.value).collect(),
     ));
-    let sound: Vec<(f64, Response, bool)> = points
-        .iter()
-        .filter_map(|p| Some((p.omega_rad_s, p.motor_corrected?, p.flagged)))
-        .collect();
+    let sound = points(result, &responses.motor_corrected);
     if !sound.is_empty() {
-        let flagged = sound.iter().any(|p| p.2);
+        let flagged = sound.iter().any(|p| p.flagged);
         let note = if flagged { "flagged: a finding affects the point; " } else { "" };
         plot = plot.subtitle(format!("{note}bars: one standard error"));
         let series = Series::new(
             "friction removed",
             Role::Corrected,
             Style::PointsWithBars,
-            sound.iter().map(|p| p.0).collect(),
-            sound.iter().map(|p| p.1.value).collect(),
+            sound.iter().map(|p| p.omega_rad_s).collect(),
+            sound.iter().map(|p| p.value).collect(),
         );
         plot = plot.series(
             series
-                .with_std(sound.iter().map(|p| p.1.std).collect())
-                .with_flags(sound.iter().map(|p| p.2).collect()),
+                .with_std(sound.iter().map(|p| p.std).collect())
+                .with_flags(sound.iter().map(|p| p.flagged).collect()),
         );
     }
-    let grid = grid(id);
-    let response: Option<Vec<Complex64>> =
-        grid.iter().map(|w| id.models.motor_response(*w)).collect();
-    if let Some(response) = response {
+    let grid = grid(result);
+    if let Some(model) = &result.models.motor {
+        let delay_s = result.models.motor_delay_s.as_ref().map_or(0.0, |delay| delay.value);
+        let response = line(&function(&model.num, &model.den), delay_s, &grid);
         let fitted = Series::new("fitted model", Role::Fitted, Style::Line, grid.clone(), response);
         plot = plot.series(fitted);
     }
@@ -82,41 +110,36 @@ fn motor(names: UnitNames, id: &Identified, reference: Option<&Reference>) -> Bo
 
 fn tip_plot(
     i: usize,
-    name: &str,
-    quantity: TipQuantity,
-    id: &Identified,
+    tip: &TipResponseEntry,
+    points: &[Point],
+    result: &ResultFile,
     reference: Option<&Reference>,
 ) -> BodePlot {
-    let what = match quantity {
-        TipQuantity::Angle => "angle",
-        TipQuantity::Deflection => "deflection",
-        TipQuantity::Acceleration => "acceleration",
+    let what = match tip.quantity {
+        TipQuantityName::Angle => "angle",
+        TipQuantityName::Deflection => "deflection",
+        TipQuantityName::Acceleration => "acceleration",
     };
-    let points: Vec<(f64, Response)> = id
-        .responses
-        .iter()
-        .filter_map(|p| Some((p.omega_rad_s, p.tips.get(i).copied().flatten()?)))
-        .collect();
     let measured = Series::new(
         "as measured",
         Role::Corrected,
         Style::PointsWithBars,
-        points.iter().map(|p| p.0).collect(),
-        points.iter().map(|p| p.1.value).collect(),
+        points.iter().map(|p| p.omega_rad_s).collect(),
+        points.iter().map(|p| p.value).collect(),
     )
-    .with_std(points.iter().map(|p| p.1.std).collect());
-    let mut plot =
-        BodePlot::new(format!("Beam: {what} of {name} per motor angle"), "").series(measured);
-    let grid = grid(id);
-    let response: Option<Vec<Complex64>> =
-        grid.iter().map(|w| id.models.tip_response(i, *w)).collect();
+    .with_std(points.iter().map(|p| p.std).collect());
+    let title = format!("Beam: {what} of {} per motor angle", tip.name);
+    let mut plot = BodePlot::new(title, "").series(measured);
+    let grid = grid(result);
     // The model of a calibrated deflection is that of its angle.
-    if let Some(response) = response.filter(|_| quantity != TipQuantity::Deflection) {
+    let model = result.models.tips.get(i);
+    if let Some(model) = model.filter(|_| tip.quantity != TipQuantityName::Deflection) {
+        let response = line(&function(&model.num, &model.den), model.delay_s.unwrap_or(0.0), &grid);
         let fitted = Series::new("fitted model", Role::Fitted, Style::Line, grid.clone(), response);
         plot = plot.series(fitted);
     }
     let known_arm = reference.and_then(|r| Some((r.label, r.arm.as_ref()?)));
-    if let Some((label, arm)) = known_arm.filter(|_| quantity == TipQuantity::Angle) {
+    if let Some((label, arm)) = known_arm.filter(|_| tip.quantity == TipQuantityName::Angle) {
         let exact: Vec<(f64, Complex64)> =
             grid.iter().filter_map(|w| Some((*w, arm.tip_response(*w).get(i).copied()?))).collect();
         plot = plot.series(known(label, &exact));
@@ -125,9 +148,9 @@ fn tip_plot(
 }
 
 /// Frequencies of a model's line, over the range of the data.
-fn grid(id: &Identified) -> Vec<f64> {
-    let low = id.responses.iter().map(|p| p.omega_rad_s).fold(f64::INFINITY, f64::min);
-    let high = id.responses.iter().map(|p| p.omega_rad_s).fold(0.0, f64::max);
+fn grid(result: &ResultFile) -> Vec<f64> {
+    let omega = || result.frequency_response.omega_rad_s.iter().copied();
+    let (low, high) = (omega().fold(f64::INFINITY, f64::min), omega().fold(0.0, f64::max));
     let (low, high) = (low / 1.1, high * 1.1);
     (0..=LINE).map(|k| low * (high / low).powf(f64::from(k) / f64::from(LINE))).collect()
 }

@@ -1,7 +1,7 @@
 //! Section of the report page about the equivalent arm, and the equations of this arm as rows.
 
-use lissom::identify::{Equivalent, StrainlessForm};
 use lissom_io::UnitNames;
+use lissom_io::result::{EquivalentEntry, StrainlessEntry};
 use lissom_report::{Cells, Page, Table};
 
 use crate::digits::{counted, shown};
@@ -13,7 +13,7 @@ const DIGITS: usize = 7;
 pub(crate) fn section(
     page: Page,
     names: UnitNames,
-    found: Option<&Equivalent>,
+    found: Option<&EquivalentEntry>,
     intervals: Option<&str>,
 ) -> Page {
     let Some((found, form)) = found.and_then(|e| Some((e, e.strainless.as_ref()?))) else {
@@ -45,33 +45,32 @@ pub(crate) fn section(
 /// The equations for use, in which turning the whole arm bends nothing: a heading, then a row for each equation.
 pub fn rows_for_use(
     names: UnitNames,
-    found: &Equivalent,
-    form: &StrainlessForm,
+    found: &EquivalentEntry,
+    form: &StrainlessEntry,
 ) -> Vec<Vec<String>> {
     let number = |x: f64| shown(x, DIGITS).replace('-', "−");
-    let mut rows = vec![heading(found, "for use (turning the whole arm bends nothing)")];
-    for i in 0..found.points.len() {
-        let mut row = vec![equation(found, i)];
-        row.extend(form.a.row(i).iter().map(|x| number(*x)));
-        row.push(number(form.b[i]));
+    let mut rows = vec![heading(&found.points, "for use (turning the whole arm bends nothing)")];
+    for (point, (a, b)) in found.points.iter().zip(form.a_per_s2.iter().zip(&form.b_per_s2)) {
+        let mut row = vec![equation(point)];
+        row.extend(a.iter().chain([b]).map(|x| number(*x)));
         rows.push(row);
     }
-    if found.arm.is_some() {
-        let h = form.h.iter().map(|x| number(*x)).chain([number(form.h_motor)]);
+    if let (Some(Some(h)), Some(Some(h_motor))) = (form.h.get(names), form.h_motor.get(names)) {
+        let h = h.iter().chain([h_motor]).map(|x| number(*x));
         rows.push(std::iter::once(torque_name(names)).chain(h).collect());
     }
     rows
 }
 
 /// Heading of a table with one row for each equation and one column for each variable.
-pub fn heading(found: &Equivalent, title: &str) -> Vec<String> {
-    let points = found.points.iter().map(|&i| format!("·θ({})", found.names[i]));
+pub fn heading(points: &[String], title: &str) -> Vec<String> {
+    let points = points.iter().map(|point| format!("·θ({point})"));
     std::iter::once(title.to_owned()).chain(points).chain(["·θ_m".to_owned()]).collect()
 }
 
 /// Left side of the equation of a point.
-pub fn equation(found: &Equivalent, i: usize) -> String {
-    format!("θ̈({}) [1/s²] =", found.names[found.points[i]])
+pub fn equation(point: &str) -> String {
+    format!("θ̈({point}) [1/s²] =")
 }
 
 /// Left side of the equation of the torque on the motor.

@@ -1,37 +1,54 @@
 //! Friction against speed: plot of the curve without a law and of the friction law, and table of the terms tried.
 
-use lissom::identify::{FrictionLaw, Identified, LawTerm, NORMAL_95, OutputError, ScaleUnit};
-use lissom_io::UnitNames;
+use lissom::identify::NORMAL_95;
+use lissom_io::result::{
+    CurvePointEntry, DirectionName, FrictionLawEntry, LawTermEntry, MethodName,
+};
+use lissom_io::{ResultFile, UnitNames};
 use lissom_report::{Axis, Cells, LinePlot, Role, Table, Trace, significant};
+
+use crate::parameter_rows::given;
 
 /// Number of points on the line of the law.
 const LINE: i32 = 200;
-/// Directions, with their signs and colours.
-const DIRECTIONS: [(&str, f64, Role); 2] =
-    [("forward", 1.0, Role::Corrected), ("backward", -1.0, Role::Other(0))];
+/// Directions with their colours.
+const DIRECTIONS: [(&str, DirectionName, Role); 2] = [
+    ("forward", DirectionName::Forward, Role::Corrected),
+    ("backward", DirectionName::Backward, Role::Other(0)),
+];
 
 /// Plot of both directions as magnitudes over speed, with the friction law of the result; `None` without a curve.
-pub fn plot(names: UnitNames, id: &Identified) -> Option<LinePlot> {
-    let law = id.friction_law.as_ref().filter(|law| !law.curve.is_empty())?;
+pub fn plot(names: UnitNames, result: &ResultFile) -> Option<LinePlot> {
+    let law = result.methods.friction_law.as_ref()?;
+    let curve = &result.friction.curve;
+    if curve.is_empty() {
+        return None;
+    }
     let mut plot = LinePlot::new(
         "Friction against speed",
         Axis::linear(format!("speed ({}/s)", names.angle())),
         Axis::linear(format!("friction against the motion ({})", names.torque_unit())),
     )
     .subtitle("points: without a friction law; bars: 95 % interval; lines: the friction law");
-    let replayed = id.output_error.as_ref().is_some_and(OutputError::stands);
-    let found = |speed: f64, sign: f64| {
-        if replayed { id.friction.at(speed, sign) } else { law.chosen.friction(speed, sign) }
+    let replayed = result.from == Some(MethodName::OutputError);
+    let found = |speed: f64, direction| {
+        if replayed {
+            result.friction.at(names, speed, direction)
+        } else {
+            law.chosen.at(names, speed, direction)
+        }
     };
-    for (name, sign, role) in DIRECTIONS {
-        let points = || law.curve.iter().filter(move |p| p.direction * sign > 0.0);
-        let speeds: Vec<f64> = points().map(|p| p.speed).collect();
-        let values = points().map(|p| p.friction.value).collect();
-        let bars = points().map(|p| NORMAL_95 * p.friction.std).collect();
+    let point = |p: &CurvePointEntry| Some((*p.speed.get(names)?, given(p.friction.get(names))?));
+    for (name, direction, role) in DIRECTIONS {
+        let of_direction = curve.iter().filter(|p| p.direction == direction);
+        let points: Vec<_> = of_direction.filter_map(point).collect();
+        let speeds: Vec<f64> = points.iter().map(|(speed, _)| *speed).collect();
+        let values = points.iter().map(|(_, friction)| friction.value).collect();
+        let bars = points.iter().map(|(_, friction)| NORMAL_95 * friction.std).collect();
         plot = plot.trace(Trace::points_with_bars(name, role, speeds.clone(), values, bars));
         let (Some(from), Some(to)) = (speeds.first(), speeds.last()) else { continue };
         let at = |k: i32| from + (to - from) * f64::from(k) / f64::from(LINE);
-        let line: Option<Vec<f64>> = (0..=LINE).map(|k| found(at(k), sign)).collect();
+        let line: Option<Vec<f64>> = (0..=LINE).map(|k| found(at(k), direction)).collect();
         if let Some(line) = line {
             plot = plot.trace(Trace::line("", role, (0..=LINE).map(at).collect(), line));
         }
@@ -40,7 +57,7 @@ pub fn plot(names: UnitNames, id: &Identified) -> Option<LinePlot> {
 }
 
 /// Table of all terms that were tried, with the numbers of the tests.
-pub fn table(names: UnitNames, law: &FrictionLaw) -> Table {
+pub fn table(names: UnitNames, law: &FrictionLawEntry) -> Table {
     let mut table = Table::new(
         "Terms tried in addition to Coulomb friction, one viscous coefficient and an offset",
         &[
@@ -55,13 +72,14 @@ pub fn table(names: UnitNames, law: &FrictionLaw) -> Table {
         ],
     );
     for c in &law.candidates {
+        let amplitude = c.amplitude.any();
         table = table.row([
-            term(names, c.term),
-            c.beside.to_string(),
-            significant(c.amplitude.value, 5),
-            significant(c.amplitude.std, 2),
+            term(names, &c.term),
+            c.beside_terms.to_string(),
+            amplitude.map_or_else(String::new, |e| significant(e.value, 5)),
+            amplitude.map_or_else(String::new, |e| significant(e.std, 2)),
             format!("{:.3}", c.residual_ratio),
-            format!("{:.1}", c.paired),
+            format!("{:.1}", c.paired_standard_errors),
             format!("{:.3}", c.stretch_ratio),
             (if c.taken { "accepted" } else { "" }).to_owned(),
         ]);
@@ -70,11 +88,12 @@ pub fn table(names: UnitNames, law: &FrictionLaw) -> Table {
 }
 
 /// Name of a term with its scale.
-fn term(names: UnitNames, term: LawTerm) -> String {
-    let (name, angle) = (term.name(), names.angle());
-    match term.scale() {
-        Some((speed, ScaleUnit::Speed)) => format!("{name}, {} {angle}/s", significant(speed, 4)),
-        Some((over, ScaleUnit::Angle)) => format!("{name}, {} {angle}", significant(over, 4)),
-        None => name.to_owned(),
+fn term(names: UnitNames, term: &LawTermEntry) -> String {
+    let (name, angle) = (term.term.name(), names.angle());
+    let over = term.period.get(names).or_else(|| term.travel.get(names));
+    match (term.speed.get(names), over) {
+        (Some(speed), _) => format!("{name}, {} {angle}/s", significant(*speed, 4)),
+        (None, Some(over)) => format!("{name}, {} {angle}", significant(*over, 4)),
+        (None, None) => name.to_owned(),
     }
 }

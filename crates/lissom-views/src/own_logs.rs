@@ -2,14 +2,16 @@
 
 use std::f64::consts::TAU;
 
-use lissom::identify::{Identified, RunKind, TorqueRun, Validation, ValidationOptions, validate};
-use lissom::record::Campaign;
-use lissom::spectrum::Harmonics;
-use lissom_io::{UnitNames, channel_name_unit};
+use lissom::identify::{FoundArm, LogPrediction, TorqueRun, predict_logs};
+use lissom::record::{Campaign, Run};
+use lissom_io::result::{HarmonicsEntry, RunEntry};
+use lissom_io::{ResultFile, UnitNames, channel_name_unit};
 use lissom_report::{Axis, LinePlot, Role, StackedPlot, Trace, TraceStyle};
 
 /// Periods of a cycle's plot.
 const PERIODS: f64 = 1.25;
+/// Sample times are the same within this share.
+const SAME_TIME: f64 = 1e-9;
 /// Colours of the terms of a torque.
 const TERMS: [Role; 4] = [Role::Other(0), Role::Other(1), Role::Other(2), Role::Other(3)];
 
@@ -17,16 +19,13 @@ const TERMS: [Role; 4] = [Role::Other(0), Role::Other(1), Role::Other(2), Role::
 pub(crate) type ByRun = Vec<(String, StackedPlot)>;
 
 /// Predicts the logs that a result is from; `None` if its estimates do not make an arm, or if that cannot be simulated.
-pub fn own_logs(campaign: &Campaign, id: &Identified) -> Option<Validation> {
-    validate(id.arm.as_ref()?, campaign, &ValidationOptions::default()).ok()
+pub fn own_logs(campaign: &Campaign, arm: Option<&FoundArm>) -> Option<LogPrediction> {
+    predict_logs(arm?, campaign).ok()
 }
 
 /// For each run: measured and predicted motion of each channel, its residual, and the terms of the torque. The run with the
 /// largest residual torque comes first.
-pub(crate) fn motion_figures(campaign: &Campaign, found: &Validation) -> ByRun {
-    let mut order: Vec<usize> = (0..campaign.runs.len()).collect();
-    let error = |run: usize| torque_of(found, run).and_then(|t| t.relative_error).unwrap_or(0.0);
-    order.sort_by(|a, b| error(*b).total_cmp(&error(*a)));
+pub(crate) fn motion_figures(campaign: &Campaign, found: &LogPrediction) -> ByRun {
     let figure = |run: usize| {
         let name = campaign.runs[run].name().to_owned();
         let mut figure = StackedPlot::new(format!("{name}: measured and predicted"));
@@ -41,17 +40,40 @@ pub(crate) fn motion_figures(campaign: &Campaign, found: &Validation) -> ByRun {
         }
         Some((name, figure))
     };
-    order.into_iter().filter_map(figure).collect()
+    by_residual(campaign, found).into_iter().filter_map(figure).collect()
 }
 
-fn torque_of(found: &Validation, run: usize) -> Option<&TorqueRun> {
+/// The terms of the torque of each run; the run with the largest residual torque comes first.
+pub(crate) fn torque_figures(
+    campaign: &Campaign,
+    found: &LogPrediction,
+) -> Vec<(String, LinePlot)> {
+    let names = UnitNames::new(&campaign.channels);
+    let figure = |run: usize| {
+        let name = campaign.runs[run].name().to_owned();
+        let mut plot = balance(names, torque_of(found, run)?);
+        plot.title = format!("{name}: terms of the {}", torque_word(names));
+        Some((name, plot))
+    };
+    by_residual(campaign, found).into_iter().filter_map(figure).collect()
+}
+
+/// The runs, that with the largest residual torque first.
+fn by_residual(campaign: &Campaign, found: &LogPrediction) -> Vec<usize> {
+    let mut order: Vec<usize> = (0..campaign.runs.len()).collect();
+    let error = |run: usize| torque_of(found, run).and_then(|t| t.relative_error).unwrap_or(0.0);
+    order.sort_by(|a, b| error(*b).total_cmp(&error(*a)));
+    order
+}
+
+fn torque_of(found: &LogPrediction, run: usize) -> Option<&TorqueRun> {
     found.torque.as_ref()?.runs.iter().find(|torque| torque.run == run)
 }
 
 /// Measured and predicted motion of a channel, and their difference; `None` if nothing is predicted.
 fn motion(
     campaign: &Campaign,
-    found: &Validation,
+    found: &LogPrediction,
     index: usize,
     channel: usize,
 ) -> Option<[LinePlot; 2]> {
@@ -104,20 +126,26 @@ fn balance(names: UnitNames, torque: &TorqueRun) -> LinePlot {
 }
 
 fn torque_axis(names: UnitNames) -> Axis {
-    let unit = names.torque_unit();
-    let what = match unit {
+    Axis::linear(format!("{} ({})", torque_word(names), names.torque_unit()))
+}
+
+fn torque_word(names: UnitNames) -> &'static str {
+    match names.torque_unit() {
         "N" => "force",
         "N·m" => "torque",
         _ => "command",
-    };
-    Axis::linear(format!("{what} ({unit})"))
+    }
 }
 
 /// One cycle of each sinusoidal run in its middle: the motion, and the friction with the torque.
-pub(crate) fn cycle_figures(campaign: &Campaign, id: &Identified, found: &Validation) -> ByRun {
+pub(crate) fn cycle_figures(
+    campaign: &Campaign,
+    result: &ResultFile,
+    found: &LogPrediction,
+) -> ByRun {
     let names = UnitNames::new(&campaign.channels);
     let figure = |(index, run): (usize, &lissom::record::Run)| {
-        let RunKind::Sinusoidal(sine) = &id.runs.get(index)?.kind else { return None };
+        let sine = own_run(result, run)?.sinusoid.as_ref()?;
         let torque = torque_of(found, index)?;
         let middle = 0.5 * run.len() as f64 * run.sample_time_s();
         let period = TAU / sine.omega_rad_s;
@@ -154,30 +182,43 @@ pub(crate) fn cycle_figures(campaign: &Campaign, id: &Identified, found: &Valida
     campaign.runs.iter().enumerate().filter_map(figure).collect()
 }
 
+/// The entry of a run of the logs that a result is from; `None` for a run of other logs.
+fn own_run<'a>(result: &'a ResultFile, run: &Run) -> Option<&'a RunEntry> {
+    let same_time = |entry: &RunEntry| {
+        (entry.sample_time_s - run.sample_time_s()).abs() < SAME_TIME * run.sample_time_s()
+    };
+    let same = |entry: &&RunEntry| {
+        entry.name == run.name() && entry.samples == run.len() && same_time(entry)
+    };
+    result.runs.iter().find(same)
+}
+
+/// Names of the runs that are not those of the result.
+pub(crate) fn other_runs<'a>(campaign: &'a Campaign, result: &ResultFile) -> Vec<&'a str> {
+    let others = campaign.runs.iter().filter(|run| own_run(result, run).is_none());
+    others.map(Run::name).collect()
+}
+
 /// Amplitudes of the harmonics of each sinusoidal run, relative to the first one.
-pub(crate) fn harmonic_figures(id: &Identified) -> Vec<(String, LinePlot)> {
-    let figure = |run: &lissom::identify::RunAnalysis| {
-        let RunKind::Sinusoidal(sine) = &run.kind else { return None };
-        let trace = |label: &str, role, harmonics: &Harmonics, shift: f64| {
-            let first = harmonics.get(1)?.value.norm();
-            let known = &harmonics.phasors;
-            let x = (1..=known.len()).map(|k| k as f64 + shift).collect();
-            let y = known.iter().map(|phasor| phasor.value.norm() / first).collect();
-            let std = known.iter().map(|phasor| phasor.std / first).collect();
+pub(crate) fn harmonic_figures(result: &ResultFile) -> Vec<(String, LinePlot)> {
+    let figure = |run: &RunEntry| {
+        let sine = run.sinusoid.as_ref()?;
+        let trace = |label: &str, role, harmonics: &HarmonicsEntry, shift: f64| {
+            let (y, std) = (harmonics.relative_amplitude.clone(), harmonics.relative_std.clone());
+            if y.is_empty() || y.len() != std.len() {
+                return None;
+            }
+            let x = (1..=y.len()).map(|k| k as f64 + shift).collect();
             Some(Trace::points_with_bars(label, role, x, y, std))
         };
         let plot = LinePlot::new(
             format!("{}: harmonics", run.name),
             Axis::linear("harmonic"),
             Axis::log("amplitude over that of the first harmonic"),
-        );
-        let plot = plot.trace(trace("command", Role::Raw, &sine.command, -0.1)?).trace(trace(
-            "motor",
-            Role::Corrected,
-            &sine.motor,
-            0.1,
-        )?);
+        )
+        .trace(trace("command", Role::Raw, &sine.command_harmonics, -0.1)?)
+        .trace(trace("motor", Role::Corrected, &sine.motor_harmonics, 0.1)?);
         Some((run.name.clone(), plot))
     };
-    id.runs.iter().filter_map(figure).collect()
+    result.runs.iter().filter_map(figure).collect()
 }

@@ -1,10 +1,11 @@
 //! The parameters of a result, one row for each.
 
-use lissom::identify::{ConstantVelocity, Estimate, Identified};
-use lissom_io::UnitNames;
+use lissom::identify::Estimate;
 use lissom_io::result::finding_keys::{
     CONSTANT_VELOCITY, COULOMB, COUPLING, GRAVITY, INERTIA, MODES, OFFSET, VISCOUS,
 };
+use lissom_io::result::{ConstantVelocityEntry, DirectionName, EstimateEntry, FrictionLineEntry};
+use lissom_io::{ResultFile, UnitNames};
 
 use crate::known_arm::Reference;
 
@@ -29,14 +30,9 @@ pub struct ParameterRow {
 }
 
 /// Friction by the method of constant velocities, one row for each parameter.
-pub fn classical_rows(
-    names: UnitNames,
-    id: &Identified,
-    found: &ConstantVelocity,
-) -> Vec<ParameterRow> {
-    let constant = id.torque_per_command.unwrap_or(1.0);
-    let (forward, backward) = (found.forward.as_ref().ok(), found.backward.as_ref().ok());
-    let in_command = |e: Option<Estimate>| e.map(|e| e.scaled(1.0 / constant));
+pub fn classical_rows(names: UnitNames, found: &ConstantVelocityEntry) -> Vec<ParameterRow> {
+    let line = |direction| found.lines.iter().find(|line| line.direction == direction);
+    let (forward, backward) = (line(DirectionName::Forward), line(DirectionName::Backward));
     let command = || names.command_unit().to_owned();
     let row = |name: &str, estimate, unit: String| ParameterRow {
         name: name.to_owned(),
@@ -45,26 +41,34 @@ pub fn classical_rows(
         unit,
         known: None,
     };
+    let coulomb = |line: Option<&FrictionLineEntry>| given(line?.coulomb.in_command(names));
+    let viscous = |line: Option<&FrictionLineEntry>| Some(line?.viscous.get(names)?.estimate());
     vec![
-        row("Coulomb friction", in_command(found.coulomb), command()),
-        row("  forward", in_command(forward.map(|l| l.coulomb)), command()),
-        row("  backward", in_command(backward.map(|l| l.coulomb)), command()),
-        row("viscous friction", found.viscous, names.viscous_unit()),
-        row("  forward", forward.map(|l| l.viscous), names.viscous_unit()),
-        row("  backward", backward.map(|l| l.viscous), names.viscous_unit()),
+        row("Coulomb friction", given(found.coulomb.in_command(names)), command()),
+        row("  forward", coulomb(forward), command()),
+        row("  backward", coulomb(backward), command()),
+        row("viscous friction", given(found.viscous.get(names)), names.viscous_unit()),
+        row("  forward", viscous(forward), names.viscous_unit()),
+        row("  backward", viscous(backward), names.viscous_unit()),
     ]
+}
+
+/// An estimate of a result that may be refused.
+pub(crate) fn given(entry: Option<&Option<EstimateEntry>>) -> Option<Estimate> {
+    entry?.as_ref().map(EstimateEntry::estimate)
 }
 
 /// All parameters of the result.
 pub fn parameter_rows(
     names: UnitNames,
-    id: &Identified,
+    result: &ResultFile,
     reference: Option<&Reference>,
 ) -> Vec<ParameterRow> {
     // An arm.toml is rotary and in SI, so it cannot be compared with parameters per unit of command.
     let reference = reference.filter(|_| names.torque_unit() == "N·m");
-    let f = &id.friction;
-    let constant = id.torque_per_command.unwrap_or(1.0);
+    let f = &result.friction;
+    let c = &f.coulomb;
+    let constant = result.torque_per_command.unwrap_or(1.0);
     let torque = || names.torque_unit().to_owned();
     let mut rows = Vec::new();
     let mut add = |key: &'static str, name: &str, estimate, unit: String, known: Option<f64>| {
@@ -72,86 +76,96 @@ pub fn parameter_rows(
     };
     let mean = reference.map(|r| 0.5 * (r.coulomb_nm.0 + r.coulomb_nm.1));
     // With another friction near standstill, this is the part that does not depend on speed.
-    let coulomb = if f.near_rest.is_some() {
+    let coulomb = if f.terms.near_rest.is_some() {
         "Coulomb friction (of the law, at high speed)"
     } else {
         "Coulomb friction"
     };
+    let mean_coulomb = given(c.coulomb.get(names));
+    let forward = given(c.forward.get(names));
+    let backward = given(c.backward.get(names));
+    let offset = given(c.offset.get(names));
     if names.torque_known {
-        let in_command = f.coulomb.map(|e| e.scaled(1.0 / constant));
         let unit = names.command_unit().to_owned();
-        add(COULOMB, coulomb, in_command, unit, mean.map(|m| m / constant));
-        add(COULOMB, "  as a torque", f.coulomb, torque(), mean);
+        add(COULOMB, coulomb, given(c.coulomb.in_command(names)), unit, mean.map(|m| m / constant));
+        add(COULOMB, "  as a torque", mean_coulomb, torque(), mean);
     } else {
-        add(COULOMB, coulomb, f.coulomb, torque(), mean);
+        add(COULOMB, coulomb, mean_coulomb, torque(), mean);
     }
-    if f.coulomb.is_none() {
+    if mean_coulomb.is_none() {
         // One direction only: friction and a constant load are one number.
-        for (name, sum) in [("forward", f.forward), ("backward", f.backward)] {
+        for (name, sum) in [("forward", forward), ("backward", backward)] {
             if sum.is_some() {
                 add(COULOMB, &format!("  friction plus load, {name}"), sum, torque(), None);
             }
         }
-    } else if f.forward.is_some() {
-        let same = f.offset.is_some_and(|o| o.value.abs() < SAME_BY_DIRECTION * o.std);
+    } else if forward.is_some() {
+        let same = offset.is_some_and(|o| o.value.abs() < SAME_BY_DIRECTION * o.std);
         if !same || reference.is_some() {
-            add(COULOMB, "  forward", f.forward, torque(), reference.map(|r| r.coulomb_nm.0));
-            add(COULOMB, "  backward", f.backward, torque(), reference.map(|r| r.coulomb_nm.1));
+            add(COULOMB, "  forward", forward, torque(), reference.map(|r| r.coulomb_nm.0));
+            add(COULOMB, "  backward", backward, torque(), reference.map(|r| r.coulomb_nm.1));
         }
-        let offset = reference.map(|r| 0.5 * (r.coulomb_nm.0 - r.coulomb_nm.1));
-        add(OFFSET, "  offset, (forward − backward)/2", f.offset, torque(), offset);
+        let known = reference.map(|r| 0.5 * (r.coulomb_nm.0 - r.coulomb_nm.1));
+        add(OFFSET, "  offset, (forward − backward)/2", offset, torque(), known);
     }
     let viscous = reference.map(|r| r.viscous_nm_s_per_rad);
-    add(VISCOUS, "viscous friction", f.viscous, names.viscous_unit(), viscous);
-    if let Some((forward, backward)) = f.viscous_by_direction {
-        add(VISCOUS, "  forward", Some(forward), names.viscous_unit(), None);
-        add(VISCOUS, "  backward", Some(backward), names.viscous_unit(), None);
+    add(VISCOUS, "viscous friction", given(f.viscous.get(names)), names.viscous_unit(), viscous);
+    for (name, one_way) in
+        [("  forward", f.viscous_forward.get(names)), ("  backward", f.viscous_backward.get(names))]
+    {
+        let Some(one_way) = one_way else { continue };
+        add(VISCOUS, name, Some(one_way.estimate()), names.viscous_unit(), None);
     }
-    if let Some(near) = f.near_rest {
-        if let Some(at_rest) = near.static_friction() {
+    if let Some(near) = &f.terms.near_rest
+        && let Some(amplitude) = given(near.amplitude.get(names))
+    {
+        if let Some(at_rest) = given(near.static_friction.get(names)) {
             add(COULOMB, "static friction", Some(at_rest), torque(), None);
         }
-        let (change, size) =
-            if near.torque.value < 0.0 { ("lower", -1.0) } else { ("higher", 1.0) };
+        let (change, size) = if amplitude.value < 0.0 { ("lower", -1.0) } else { ("higher", 1.0) };
         let name = format!("friction near standstill {change} by");
-        add(COULOMB, &name, Some(near.torque.scaled(size)), torque(), None);
+        add(COULOMB, &name, Some(amplitude.scaled(size)), torque(), None);
         add(
             COULOMB,
             "  below a speed of about",
-            Some(near.speed),
+            near.speed.get(names).map(EstimateEntry::estimate),
             format!("{}/s", names.angle()),
             None,
         );
     }
-    if f.with_load.is_some() {
-        add(COULOMB, "friction per gravity torque, μ", f.with_load, "1".to_owned(), None);
+    if let Some(with_load) = &f.terms.with_load {
+        let estimate = Some(with_load.estimate());
+        add(COULOMB, "friction per gravity torque, μ", estimate, "1".to_owned(), None);
     }
-    for ripple in &f.ripples {
-        add(COULOMB, "friction ripple", Some(ripple.torque), torque(), None);
-        add(COULOMB, "  period", Some(ripple.period()), names.angle().to_owned(), None);
+    for ripple in &f.terms.ripples {
+        let period = ripple.period.get(names).map(EstimateEntry::estimate);
+        add(COULOMB, "friction ripple", given(ripple.amplitude.get(names)), torque(), None);
+        add(COULOMB, "  period", period, names.angle().to_owned(), None);
     }
     let inertia = reference.map(|r| r.inertia_kg_m2);
-    add(INERTIA, names.inertia_name(), id.inertia, names.inertia_unit(), inertia);
-    if let Some(gravity) = &id.gravity {
+    let estimate = given(result.drive.inertia.get(names));
+    add(INERTIA, names.inertia_name(), estimate, names.inertia_unit(), inertia);
+    if let Some(gravity) = &result.gravity {
         let known = reference.and_then(|r| r.gravity);
         let mgl = known.map(|load| load.amplitude_nm());
-        add(GRAVITY, "gravity, m·g·l", Some(gravity.amplitude()), torque(), mgl);
+        let amplitude = gravity.amplitude.get(names).map(EstimateEntry::estimate);
+        add(GRAVITY, "gravity, m·g·l", amplitude, torque(), mgl);
         let phase = known.map(|load| load.phase_rad().to_degrees());
-        let degrees = gravity.phase_rad().scaled(1.0_f64.to_degrees());
+        let degrees = gravity.phase_rad.estimate().scaled(1.0_f64.to_degrees());
         add(GRAVITY, "  phase φ of m·g·l·sin(θ + φ)", Some(degrees), "deg".to_owned(), phase);
-        if let Some(constant) = id.torque_constant {
+        if let Some(constant) = given(gravity.torque_constant.get(names)) {
             let unit = format!("N·m/{}", names.command_unit());
             add(GRAVITY, "  torque constant from m·g·l", Some(constant), unit, None);
         }
     }
-    rows.extend(beam_rows(names, id, reference));
+    rows.extend(beam_rows(names, result, reference));
     rows
 }
 
 /// The beam's parameters: coupling and modes.
 fn beam_rows(
     names: UnitNames,
-    id: &Identified,
+    result: &ResultFile,
     reference: Option<&Reference>,
 ) -> Vec<ParameterRow> {
     let arm = reference.and_then(|r| r.arm.as_ref());
@@ -159,14 +173,16 @@ fn beam_rows(
     let mut add = |key: &'static str, name: &str, estimate, unit: String, known: Option<f64>| {
         rows.push(ParameterRow { name: name.to_owned(), key, estimate, unit, known });
     };
-    if !id.beam.coupling_by_tip.is_empty() || id.beam.coupling.is_some() {
+    let coupling = given(result.beam.coupling.get(names));
+    let tips = result.beam.coupling_by_tip.get(names).is_some_and(|tips| !tips.is_empty());
+    if tips || coupling.is_some() {
         let known = arm.map(|a| a.dynamics().coupling_motor);
-        add(COUPLING, "coupling to the beam", id.beam.coupling, names.coupling_unit(), known);
+        add(COUPLING, "coupling to the beam", coupling, names.coupling_unit(), known);
     }
     let natural = arm.map_or(Vec::new(), |a| a.beam().natural_frequencies_rad_s());
-    for (k, mode) in id.beam.modes.iter().enumerate() {
+    for (k, mode) in result.beam.modes.iter().enumerate() {
         let name = format!("mode {} (motor clamped)", k + 1);
-        let frequency = mode.natural_frequency_rad_s;
+        let frequency = mode.natural_frequency_rad_s.estimate();
         let known = natural.get(k).copied();
         add(MODES, &name, Some(frequency), "rad/s".to_owned(), known);
         let hertz = |v: f64| v / std::f64::consts::TAU;
@@ -177,7 +193,8 @@ fn beam_rows(
             "Hz".to_owned(),
             known.map(hertz),
         );
-        add(MODES, "  damping ratio", mode.given_damping_ratio(), "–".to_owned(), None);
+        let damping = mode.damping_ratio.as_ref().map(EstimateEntry::estimate);
+        add(MODES, "  damping ratio", damping, "–".to_owned(), None);
     }
     rows
 }

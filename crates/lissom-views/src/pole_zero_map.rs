@@ -1,18 +1,24 @@
 //! Poles and zeros of the linear models of a result.
 
-use lissom::identify::Identified;
 use lissom::lti::TransferFunction;
-use lissom::record::Channels;
+use lissom_io::ResultFile;
 use lissom_report::{Axis, LinePlot, Role, Trace, TraceStyle};
 use num_complex::Complex64;
 
-/// The maps of motor and tips, each with its name; those are missing whose model is not known.
-pub(crate) fn maps(channels: &Channels, id: &Identified) -> Vec<(String, LinePlot)> {
-    let motor = id.models.motor.as_ref().map(|model| ("motor", model));
-    let tips = channels.tips.iter().zip(&id.models.tips);
-    let tips = tips.map(|(tip, model)| (tip.name.as_str(), &model.function));
+use crate::bode_plots::function;
+
+/// The maps of motor and tips, each with the name of its file and that of its channel; those are missing whose model is not
+/// known.
+pub(crate) fn maps(result: &ResultFile) -> Vec<(String, String, LinePlot)> {
+    let models = &result.models;
+    let motor = models.motor.as_ref();
+    let motor = motor.map(|g| ("poles-motor".to_owned(), "motor", function(&g.num, &g.den)));
+    let tips = models.tips.iter().enumerate().map(|(i, tip)| {
+        (format!("poles-tip-{}", i + 1), tip.name.as_str(), function(&tip.num, &tip.den))
+    });
     let all = motor.into_iter().chain(tips);
-    all.filter_map(|(name, model)| Some((name.to_owned(), map(name, model)?))).collect()
+    all.filter_map(|(file, name, model)| Some((file, name.to_owned(), map(name, &model)?)))
+        .collect()
 }
 
 fn map(name: &str, model: &TransferFunction) -> Option<LinePlot> {

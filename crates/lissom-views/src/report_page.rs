@@ -1,8 +1,9 @@
 //! The report page: one self-contained HTML document.
 
-use lissom::identify::{Finding, GeometryCheck, Identified, Severity, Validation};
+use lissom::identify::LogPrediction;
 use lissom::record::Campaign;
-use lissom_io::UnitNames;
+use lissom_io::result::{FindingEntry, SeverityName};
+use lissom_io::{ResultFile, UnitNames};
 use lissom_report::{
     Finding as ReportFinding, KeyFigure, Page, Severity as ReportSeverity, significant,
     with_uncertainty,
@@ -26,33 +27,40 @@ const MAIN_PARAMETERS: usize = 6;
 /// Most findings in the summary.
 const MAIN_FINDINGS: usize = 3;
 
-/// The page of a result. `own` is the prediction of the campaign itself, see [`own_logs()`](crate::own_logs()). `reference`
-/// adds the parameters of a known arm, `described` the comparison with its dimensions.
-/// `hints` names what helps in the program that makes the page.
-pub fn page(
-    title: &str,
-    campaign: &Campaign,
-    id: &Identified,
-    own: Option<&Validation>,
-    reference: Option<&Reference>,
-    described: Option<&GeometryCheck>,
-    hints: ProgramHints,
-) -> Page {
-    let names = UnitNames::new(&campaign.channels);
-    let rows = parameter_rows(names, id, reference);
-    let findings: Vec<ReportFinding> = id.findings.iter().map(|f| finding(f, hints)).collect();
+/// What a page is made of.
+#[derive(Debug, Clone, Copy)]
+pub struct PageContent<'a> {
+    /// The result, as `result.json` has it.
+    pub result: &'a ResultFile,
+    /// Logs with what the arm of the result predicts of them, see [`own_logs()`](crate::own_logs()).
+    pub logs: Option<(&'a Campaign, &'a LogPrediction)>,
+    /// A known arm, whose parameters are compared.
+    pub reference: Option<&'a Reference>,
+    /// What helps in the program that makes the page.
+    pub hints: &'a ProgramHints,
+}
+
+/// The page of a result. Only what is predicted of logs is not in `result.json`. Without the units of an axis, which every
+/// result of [`ResultFile::of`] has, the page is empty.
+pub fn page(title: &str, content: PageContent<'_>) -> Page {
+    let page = Page::new(title);
+    let PageContent { result, logs, reference, hints } = content;
+    let Some(names) = result.names() else { return page };
+    let rows = parameter_rows(names, result, reference);
+    let findings = result.findings.iter().enumerate();
+    let findings: Vec<ReportFinding> = findings.map(|(k, f)| finding(f, hints.of(k))).collect();
     let main: Vec<ReportFinding> = main_findings(&findings);
-    let mut page = Page::new(title).summary(&in_words(id, &rows));
+    let mut page = page.summary(&in_words(result, &rows));
     if !main.is_empty() {
         page = page.main_findings(&main);
     }
     page = page.contents().heading("Parameters").key_figures(
         "Drive and beam; 0.1320(12) means 0.1320 ± 0.0012",
-        &key_figures(id, rows, reference),
+        &key_figures(result, rows, reference),
     );
-    page = separability_section::section(page, names, id);
-    page = motion_section(page, campaign, id, own);
-    let bode = bode_plots::bode_plots(&campaign.channels, names, id, reference);
+    page = separability_section::section(page, result);
+    page = motion_section(page, result, logs);
+    let bode = bode_plots::bode_plots(names, result, reference);
     if !bode.is_empty() {
         page = page.heading("Frequency responses");
     }
@@ -63,7 +71,8 @@ pub fn page(
              parameters.",
         );
     }
-    let maps = pole_zero_map::maps(&campaign.channels, id);
+    let maps = pole_zero_map::maps(result).into_iter().map(|(_, name, plot)| (name, plot));
+    let maps: Vec<_> = maps.collect();
     if !maps.is_empty() {
         page = page.gallery(
             "response of",
@@ -71,14 +80,14 @@ pub fn page(
             "Of the linear models, without dry friction and delays.",
         );
     }
-    if let Some(plot) = third_harmonic::pair_plot(names, id) {
+    if let Some(plot) = third_harmonic::pair_plot(names, result) {
         page = page.heading("Third harmonic").figure(
             &plot,
             "Coulomb friction from each pair of runs, at a frequency and at three times this frequency.",
         );
-        page = page.table(&third_harmonic::pair_table(names, id));
+        page = page.table(&third_harmonic::pair_table(names, result));
     }
-    if let Some(table) = window_table(id) {
+    if let Some(table) = window_table(result) {
         page = page
             .heading("Regression in slip phases")
             .paragraph(
@@ -88,14 +97,14 @@ pub fn page(
             )
             .table(&table);
     }
-    if let Some(plot) = friction_curve::plot(names, id) {
+    if let Some(plot) = friction_curve::plot(names, result) {
         page = page.heading("Friction against speed").figure(
             &plot,
             "Friction at a few speeds, fitted in slip phases together with the linear terms, without a \
              friction law. Speeds without a slip phase are not drawn. A constant load is included.",
         );
     }
-    if let Some(law) = &id.friction_law {
+    if let Some(law) = &result.methods.friction_law {
         page = page
             .paragraph(
                 "A term is accepted if it describes left-out slip phases better by more than three \
@@ -104,7 +113,7 @@ pub fn page(
             )
             .table(&friction_curve::table(names, law));
     }
-    if let Some(plot) = friction_plot(&campaign.channels, names, id) {
+    if let Some(plot) = friction_plot(names, result) {
         page = page
             .heading("Constant velocity")
             .figure(
@@ -112,27 +121,33 @@ pub fn page(
                 "The command that maintains a velocity, both directions as magnitudes. Solid: straight \
                  lines through the points. Dashed: extrapolated to zero speed.",
             )
-            .key_figures("Friction from constant velocities", &constant_velocity_values(names, id))
-            .table(&stretch_table(names, id));
+            .key_figures("Friction from constant velocities", &constant_velocity_values(names, result))
+            .table(&stretch_table(names, result));
     }
     let intervals = hints.equivalent_intervals;
-    page = equivalent_section::section(page, names, id.equivalent.as_ref(), intervals);
-    page = arm_check::section(page, described);
+    page = equivalent_section::section(page, names, result.equivalent.as_ref(), intervals);
+    page = arm_check::section(page, result.geometry.as_ref());
     page.heading("Runs")
-        .table(&run_table(id))
+        .table(&run_table(result))
         .heading("Findings")
         .findings(&findings)
-        .footer(&format!("lissom {}", env!("CARGO_PKG_VERSION")))
+        .footer(&format!("lissom {}", result.lissom))
 }
 
-/// Adds what the result says about its own logs.
+/// Adds what the result says about logs.
 fn motion_section(
     mut page: Page,
-    campaign: &Campaign,
-    id: &Identified,
-    own: Option<&Validation>,
+    result: &ResultFile,
+    logs: Option<(&Campaign, &LogPrediction)>,
 ) -> Page {
-    if let Some(own) = own {
+    if let Some((campaign, own)) = logs {
+        let others = own_logs::other_runs(campaign, result);
+        if !others.is_empty() {
+            page = page.heading("Logs of this page").paragraph(&format!(
+                "The result is not from these runs, which its arm predicts: {}.",
+                others.join(", ")
+            ));
+        }
         let motion = own_logs::motion_figures(campaign, own);
         if !motion.is_empty() {
             page = page.heading("Measured and predicted motion").gallery(
@@ -142,7 +157,7 @@ fn motion_section(
                  short window; no prediction while the motor rests. The run with the largest residual torque comes first.",
             );
         }
-        let cycles = own_logs::cycle_figures(campaign, id, own);
+        let cycles = own_logs::cycle_figures(campaign, result, own);
         if !cycles.is_empty() {
             page = page.heading("One cycle with its friction").gallery(
                 "run",
@@ -160,7 +175,7 @@ fn motion_section(
             );
         }
     }
-    let harmonics = own_logs::harmonic_figures(id);
+    let harmonics = own_logs::harmonic_figures(result);
     if harmonics.is_empty() {
         return page;
     }
@@ -172,7 +187,7 @@ fn motion_section(
 }
 
 /// The result in two sentences: the most important parameters, and how many findings there are.
-fn in_words(id: &Identified, rows: &[ParameterRow]) -> String {
+fn in_words(result: &ResultFile, rows: &[ParameterRow]) -> String {
     let main = rows.iter().filter(|row| !row.name.starts_with(' '));
     let estimates = main.filter_map(|row| {
         let estimate = row.estimate?;
@@ -181,8 +196,8 @@ fn in_words(id: &Identified, rows: &[ParameterRow]) -> String {
         Some(format!("{} {value} {unit}", row.name).trim_end().to_owned())
     });
     let given: Vec<String> = estimates.take(MAIN_PARAMETERS).collect();
-    let count = |severity| id.findings.iter().filter(|f| f.severity() == severity).count();
-    let runs = counted(id.runs.len(), "run");
+    let count = |severity| result.findings.iter().filter(|f| f.severity == severity).count();
+    let runs = counted(result.runs.len(), "run");
     let what = if given.is_empty() {
         format!("{runs} do not determine friction and inertia")
     } else {
@@ -194,8 +209,8 @@ fn in_words(id: &Identified, rows: &[ParameterRow]) -> String {
     });
     format!(
         "{what}. {} and {}.",
-        counted(count(Severity::Warning), "warning"),
-        counted(count(Severity::Refusal), "refusal")
+        counted(count(SeverityName::Warning), "warning"),
+        counted(count(SeverityName::Refusal), "refusal")
     )
 }
 
@@ -214,7 +229,7 @@ fn main_findings(findings: &[ReportFinding]) -> Vec<ReportFinding> {
 }
 
 fn key_figures(
-    id: &Identified,
+    result: &ResultFile,
     rows: Vec<ParameterRow>,
     reference: Option<&Reference>,
 ) -> Vec<KeyFigure> {
@@ -225,19 +240,19 @@ fn key_figures(
             }
             _ => String::new(),
         };
-        let doubted_by = doubted_by(id, row.key);
+        let doubted_by = doubted_by(result, row.key);
         KeyFigure { doubted_by, ..key_figure(row, note) }
     };
     rows.into_iter().map(figure).collect()
 }
 
 /// Codes of the warnings and refusals that affect a key of the result.
-fn doubted_by(id: &Identified, key: &str) -> Vec<String> {
+fn doubted_by(result: &ResultFile, key: &str) -> Vec<String> {
     let mut codes: Vec<String> = Vec::new();
-    for finding in id.findings.iter().filter(|f| f.severity() != Severity::Info) {
-        let is_new = !codes.iter().any(|code| code == finding.code());
-        if is_new && finding.affects().contains(&key) {
-            codes.push(finding.code().to_owned());
+    for finding in result.findings.iter().filter(|f| f.severity != SeverityName::Info) {
+        let is_new = !codes.contains(&finding.code);
+        if is_new && finding.affects.iter().any(|affected| affected == key) {
+            codes.push(finding.code.clone());
         }
     }
     codes
@@ -256,21 +271,22 @@ fn key_figure(row: ParameterRow, note: String) -> KeyFigure {
     }
 }
 
-fn constant_velocity_values(names: UnitNames, id: &Identified) -> Vec<KeyFigure> {
-    let rows = id.constant_velocity.as_ref().map(|c| classical_rows(names, id, c));
+fn constant_velocity_values(names: UnitNames, result: &ResultFile) -> Vec<KeyFigure> {
+    let found = result.methods.constant_velocity.as_ref();
+    let rows = found.map(|found| classical_rows(names, found));
     rows.unwrap_or_default().into_iter().map(|row| key_figure(row, String::new())).collect()
 }
 
-fn finding(f: &Finding, hints: ProgramHints) -> ReportFinding {
-    let severity = match f.severity() {
-        Severity::Info => ReportSeverity::Info,
-        Severity::Warning => ReportSeverity::Warning,
-        Severity::Refusal => ReportSeverity::Refusal,
+fn finding(f: &FindingEntry, hint: Option<&str>) -> ReportFinding {
+    let severity = match f.severity {
+        SeverityName::Info => ReportSeverity::Info,
+        SeverityName::Warning => ReportSeverity::Warning,
+        SeverityName::Refusal => ReportSeverity::Refusal,
     };
-    let mut finding = ReportFinding::new(severity, f.code(), f.message());
+    let mut finding = ReportFinding::new(severity, f.code.clone(), f.message.clone());
     finding.run.clone_from(&f.run);
-    finding.affects = f.affects().into_iter().map(str::to_owned).collect();
-    let hints: Vec<&str> = [f.hint()].into_iter().chain((hints.of_finding)(&f.kind)).collect();
+    finding.affects.clone_from(&f.affects);
+    let hints: Vec<&str> = [f.hint.as_str()].into_iter().chain(hint).collect();
     let hint = hints.join("; ");
     if hint.is_empty() { finding } else { finding.hint(hint) }
 }

@@ -1,10 +1,11 @@
 //! The runs of a result.
 
-use lissom::identify::{Identified, RunKind};
+use lissom_io::ResultFile;
+use lissom_io::result::{RunEntry, RunKindName};
 use lissom_report::{Cells, Table};
 
 /// Table of the runs: how each moves, which periods are used, and for how long it rests.
-pub fn run_table(id: &Identified) -> Table {
+pub fn run_table(result: &ResultFile) -> Table {
     let mut table = Table::new(
         "Motion of each run",
         &[
@@ -16,35 +17,32 @@ pub fn run_table(id: &Identified) -> Table {
             ("saturated (%)", Cells::Numbers),
         ],
     );
-    for run in &id.runs {
+    for run in &result.runs {
         let share = |s: f64| format!("{:.1}", 100.0 * s);
-        let cells = match &run.kind {
-            RunKind::Sinusoidal(s) => [
-                run.name.clone(),
-                format!("{:.4}", s.omega_rad_s),
-                s.steady.periods.to_string(),
-                s.steady.dropped.to_string(),
-                run.stuck_share.map_or_else(String::new, share),
-                share(run.saturated_share),
-            ],
-            RunKind::ConstantVelocity => [
-                run.name.clone(),
-                format!("constant velocities ({})", run.steady.len()),
-                String::new(),
-                String::new(),
-                String::new(),
-                share(run.saturated_share),
-            ],
-            RunKind::General => [
-                run.name.clone(),
-                "other motion".to_owned(),
-                String::new(),
-                String::new(),
-                String::new(),
-                share(run.saturated_share),
-            ],
+        let words = match (run.kind, &run.sinusoid) {
+            (RunKindName::Sinusoidal, Some(s)) => format!("{:.4}", s.omega_rad_s),
+            (RunKindName::ConstantVelocity, _) => constant_velocities(result, run),
+            _ => "other motion".to_owned(),
         };
+        let sinusoid = run.sinusoid.as_ref();
+        let of_sinusoid = |s: Option<String>| s.unwrap_or_default();
+        let cells = [
+            run.name.clone(),
+            words,
+            of_sinusoid(sinusoid.map(|s| s.periods.to_string())),
+            of_sinusoid(sinusoid.map(|s| s.dropped_periods.to_string())),
+            of_sinusoid(sinusoid.and_then(|s| s.stuck_share).map(share)),
+            share(run.saturated_share),
+        ];
         table = table.row(cells);
     }
     table
+}
+
+fn constant_velocities(result: &ResultFile, run: &RunEntry) -> String {
+    let points = result.methods.constant_velocity.iter().flat_map(|found| &found.points);
+    match points.filter(|point| point.run == run.name).count() {
+        0 => "constant velocities".to_owned(),
+        count => format!("constant velocities ({count})"),
+    }
 }

@@ -1,22 +1,25 @@
 //! Coulomb friction by the third harmonic: plot and table of the pairs of runs.
 
-use lissom::identify::Identified;
-use lissom_io::UnitNames;
+use lissom_io::result::{EstimateEntry, SinePairEntry};
+use lissom_io::{ResultFile, UnitNames};
 use lissom_report::{Axis, Band, Cells, LinePlot, Role, Table, Trace, significant};
 
 /// Plot of the estimate from each pair of runs over its frequency; `None` without this method.
-pub fn pair_plot(names: UnitNames, id: &Identified) -> Option<LinePlot> {
-    let third = id.third_harmonic.as_ref()?;
-    let mean = third.coulomb_command;
-    let [low, high] = mean.ci95();
+pub fn pair_plot(names: UnitNames, result: &ResultFile) -> Option<LinePlot> {
+    let third = result.methods.third_harmonic.as_ref()?;
+    let mean = third.coulomb.in_command(names)?.as_ref()?;
+    let [low, high] = mean.ci95;
+    let coulomb = |pair: &SinePairEntry, of: fn(&EstimateEntry) -> f64| {
+        pair.coulomb.in_command(names).map_or(f64::NAN, of)
+    };
     let trace = Trace::points_with_bars(
         "each pair",
         Role::Corrected,
         third.pairs.iter().map(|p| p.omega_rad_s).collect(),
-        third.pairs.iter().map(|p| p.coulomb_command.value).collect(),
-        third.pairs.iter().map(|p| p.coulomb_command.std).collect(),
+        third.pairs.iter().map(|p| coulomb(p, |e| e.value)).collect(),
+        third.pairs.iter().map(|p| coulomb(p, |e| e.std)).collect(),
     )
-    .with_flags(third.used.iter().map(|u| !u).collect());
+    .with_flags(third.pairs.iter().map(|p| !p.used).collect());
     let unit = names.command_unit();
     let plot = LinePlot::new(
         "Coulomb friction by the third harmonic",
@@ -29,7 +32,7 @@ pub fn pair_plot(names: UnitNames, id: &Identified) -> Option<LinePlot> {
 }
 
 /// Table of the estimates from the pairs, with the cost of each.
-pub fn pair_table(names: UnitNames, id: &Identified) -> Table {
+pub fn pair_table(names: UnitNames, result: &ResultFile) -> Table {
     let unit = names.command_unit();
     let coulomb = format!("Coulomb friction ({unit})");
     let mut table = Table::new(
@@ -44,26 +47,33 @@ pub fn pair_table(names: UnitNames, id: &Identified) -> Table {
             ("", Cells::Text),
         ],
     );
-    if let Some(third) = &id.third_harmonic {
-        for (p, used) in third.pairs.iter().zip(&third.used) {
+    let shown = |estimate: Option<&EstimateEntry>| {
+        let digits = |value: f64| format!("{value:.5}");
+        estimate.map_or_else(Default::default, |e| [digits(e.value), digits(e.std)])
+    };
+    if let Some(third) = &result.methods.third_harmonic {
+        for p in &third.pairs {
+            let [coulomb, std] = shown(p.coulomb.in_command(names));
             table = table.row([
-                id.runs[p.run].name.clone(),
-                id.runs[p.triple_run].name.clone(),
+                p.run.clone(),
+                p.triple_run.clone(),
                 format!("{:.4}", p.omega_rad_s),
-                format!("{:.5}", p.coulomb_command.value),
-                format!("{:.5}", p.coulomb_command.std),
+                coulomb,
+                std,
                 significant(p.cost, 3),
-                (if *used { "" } else { "left out" }).to_owned(),
+                (if p.used { "" } else { "left out" }).to_owned(),
             ]);
         }
+        let [coulomb, std] = shown(third.coulomb.in_command(names).and_then(Option::as_ref));
+        let spread = third.spread.get(names).map(|spread| format!("spread {spread:.5}"));
         table = table.row([
             "mean".to_owned(),
             String::new(),
             String::new(),
-            format!("{:.5}", third.coulomb_command.value),
-            format!("{:.5}", third.coulomb_command.std),
+            coulomb,
+            std,
             String::new(),
-            format!("spread {:.5}", third.spread_command),
+            spread.unwrap_or_default(),
         ]);
     }
     table

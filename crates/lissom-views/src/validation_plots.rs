@@ -1,6 +1,6 @@
 //! Plots of a validation.
 
-use lissom::identify::{ChannelResidual, PredictedStretch, TorqueRun, Validation};
+use lissom::identify::{ChannelResidual, LogPrediction, PredictedStretch, TorqueRun, Validation};
 use lissom::record::Campaign;
 use lissom_io::{UnitNames, channel_name_unit};
 use lissom_report::{Axis, Band, LinePlot, Role, Trace, TraceStyle};
@@ -34,7 +34,7 @@ pub fn validation_plots(campaign: &Campaign, validation: &Validation) -> Vec<Nam
 /// Autocorrelation and cross-correlation of the residual of each channel, each with its name.
 pub(crate) fn correlation_figures(
     campaign: &Campaign,
-    validation: &Validation,
+    found: &LogPrediction,
 ) -> Vec<(String, LinePlot)> {
     let of_channel = |(c, residual): (usize, &ChannelResidual)| {
         let (name, _) = channel_name_unit(&campaign.channels, c);
@@ -43,7 +43,7 @@ pub(crate) fn correlation_figures(
             (format!("{name}: correlation with the command"), cross_correlation(name, residual)),
         ]
     };
-    validation.residuals.iter().enumerate().flat_map(of_channel).collect()
+    found.residuals.iter().enumerate().flat_map(of_channel).collect()
 }
 
 fn worst(runs: &[TorqueRun]) -> Option<&TorqueRun> {

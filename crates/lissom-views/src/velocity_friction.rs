@@ -1,14 +1,16 @@
 //! Friction from constant velocities: plot, and table of the stretches.
 
-use lissom::identify::{Identified, LineShape};
-use lissom::record::Channels;
-use lissom_io::UnitNames;
+use lissom_io::result::{DirectionName, EstimateEntry, LineShapeName, SteadyPointEntry};
+use lissom_io::{ResultFile, UnitNames};
 use lissom_report::{Axis, Cells, LinePlot, Role, Table, Trace, TraceStyle, with_uncertainty};
 
+use crate::parameter_rows::given;
+
 /// Plot of command over velocity, both directions as magnitudes, with straight lines extrapolated to zero speed.
-pub fn friction_plot(channels: &Channels, names: UnitNames, id: &Identified) -> Option<LinePlot> {
-    let found = id.constant_velocity.as_ref()?;
-    let constant = id.torque_per_command.unwrap_or(1.0);
+pub fn friction_plot(names: UnitNames, result: &ResultFile) -> Option<LinePlot> {
+    let found = result.methods.constant_velocity.as_ref()?;
+    let constant = result.torque_per_command.unwrap_or(1.0);
+    let back_emf = found.back_emf.get(names).copied().unwrap_or(0.0);
     let unit = names.command_unit();
     let mut plot = LinePlot::new(
         "Friction from constant velocities",
@@ -17,33 +19,45 @@ pub fn friction_plot(channels: &Channels, names: UnitNames, id: &Identified) -> 
     )
     .subtitle("bars: one standard error");
     let directions = [
-        ("forward", 1.0, Role::Corrected, &found.forward),
-        ("backward", -1.0, Role::Other(0), &found.backward),
+        ("forward", DirectionName::Forward, Role::Corrected),
+        ("backward", DirectionName::Backward, Role::Other(0)),
     ];
     let (mut lines, mut bent) = (Vec::new(), Vec::new());
-    for (name, sign, role, line) in directions {
-        let points = || found.points.iter().filter(move |p| p.velocity.value * sign > 0.0);
-        let speeds: Vec<f64> = points().map(|p| sign * p.velocity.value).collect();
+    for (name, direction, role) in directions {
+        let sign = direction.sign();
+        let points = || found.points.iter().filter(move |p| p.direction == direction);
+        let command = |p: &SteadyPointEntry, of: fn(&EstimateEntry) -> f64| {
+            p.command.get(names).map_or(f64::NAN, of)
+        };
+        let velocity = |p: &SteadyPointEntry| Some(sign * p.velocity.get(names)?.value);
+        let speeds: Vec<f64> = points().filter_map(velocity).collect();
         let (slowest, fastest) =
             speeds.iter().fold((f64::INFINITY, 0.0_f64), |(l, h), v| (l.min(*v), h.max(*v)));
         plot = plot.trace(Trace::points_with_bars(
             name,
             role,
             speeds,
-            points().map(|p| sign * p.command.value).collect(),
-            points().map(|p| p.command.std).collect(),
+            points().map(|p| sign * command(p, |e| e.value)).collect(),
+            points().map(|p| command(p, |e| e.std)).collect(),
         ));
-        let Ok(line) = line else { continue };
-        let slope = line.viscous.value + channels.command.back_emf_viscous;
-        let at = |v: f64| (line.coulomb.value + slope * v) / constant;
-        let rest = line.coulomb.scaled(1.0 / constant);
+        let Some(line) = found.lines.iter().find(|line| line.direction == direction) else {
+            continue;
+        };
+        let (Some(coulomb), Some(viscous)) =
+            (given(line.coulomb.get(names)), line.viscous.get(names))
+        else {
+            continue;
+        };
+        let slope = viscous.value + back_emf;
+        let at = |v: f64| (coulomb.value + slope * v) / constant;
+        let rest = coulomb.scaled(1.0 / constant);
         let label = format!("{name} at rest {} {unit}", with_uncertainty(rest.value, rest.std));
         let through = Trace::line("", role, vec![slowest, fastest], vec![at(slowest), at(fastest)]);
         let to_rest = vec![at(0.0), at(slowest)];
         lines.push(through);
         lines.push(Trace::new(label, role, TraceStyle::Dashes, vec![0.0, slowest], to_rest));
-        if let (LineShape::Concave { .. } | LineShape::Convex { .. }, Some(slow)) =
-            (line.shape, line.slowest)
+        if let (LineShapeName::Concave | LineShapeName::Convex, Some(slow)) =
+            (line.shape, given(line.slowest.get(names)))
         {
             bent.push(slow.scaled(1.0 / constant));
         }
@@ -62,7 +76,7 @@ pub fn friction_plot(channels: &Channels, names: UnitNames, id: &Identified) -> 
 }
 
 /// Table of all stretches at a constant velocity.
-pub fn stretch_table(names: UnitNames, id: &Identified) -> Table {
+pub fn stretch_table(names: UnitNames, result: &ResultFile) -> Table {
     let velocity = format!("velocity ({}/s)", names.angle());
     let command = format!("{} ({})", names.command_name(), names.command_unit());
     let mut table = Table::new(
@@ -76,15 +90,19 @@ pub fn stretch_table(names: UnitNames, id: &Identified) -> Table {
             ("standard error", Cells::Numbers),
         ],
     );
-    for p in id.constant_velocity.iter().flat_map(|c| &c.points) {
+    for p in result.methods.constant_velocity.iter().flat_map(|c| &c.points) {
         table = table.row([
-            id.runs[p.run].name.clone(),
+            p.run.clone(),
             format!("{:.3}", p.start_s),
             format!("{:.3}", p.end_s),
-            format!("{:.5}", p.velocity.value),
-            format!("{:.5}", p.command.value),
-            format!("{:.5}", p.command.std),
+            digits(p.velocity.get(names).map(|e| e.value)),
+            digits(p.command.get(names).map(|e| e.value)),
+            digits(p.command.get(names).map(|e| e.std)),
         ]);
     }
     table
+}
+
+fn digits(value: Option<f64>) -> String {
+    value.map_or_else(String::new, |value| format!("{value:.5}"))
 }

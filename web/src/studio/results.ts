@@ -1,10 +1,10 @@
 // Results: the report of one, its files, and the comparison of several.
 
 import { enlivenReport } from "../report";
-import { get, getFile, getText, send } from "./api";
+import { getFile, getText, send } from "./api";
 import { button, counted, h, put } from "./dom";
 import type { Store } from "./store";
-import type { Compared, Result, State } from "./types";
+import type { Result, State } from "./types";
 
 const FILE_WORDS: Record<string, string> = {
   "report.html": "report page",
@@ -134,8 +134,13 @@ export class Compare {
 
   private async load(key: string): Promise<void> {
     await this.store.during("", async () => {
-      const found = await get<Compared>(`/api/compare?results=${key}`);
-      if (key === this.key) put(this.place, ...this.changes(), table(found));
+      const text = await getText(`/api/compare?results=${key}`);
+      if (key !== this.key) return;
+      const page = h("div", { id: "comparison", class: "report" });
+      // The server has escaped all text, as in a report.
+      page.innerHTML = text;
+      put(this.place, ...this.changes(), page);
+      enlivenReport(page);
     });
   }
 
@@ -152,42 +157,6 @@ export class Compare {
     const same = " Results of the same logs share their noise: differences are then smaller than their standard errors say.";
     return [h("p", {}, words + same)];
   }
-}
-
-function table(found: Compared): HTMLElement {
-  const head = ["quantity", "unit", ...found.results.map(({ file }) => file), ...found.results.slice(1).map(({ file }) => `change: ${file}`)];
-  const rows = found.parameters.map((parameter) => {
-    const values = parameter.values.map((value, k) => {
-      const doubtful = (parameter.warnings[k]?.length ?? 0) > 0;
-      return h("td", { class: "n" }, value ? `${digits(value.value, value.std)}${doubtful ? " *" : ""}` : "–");
-    });
-    const differences = parameter.differences.map((difference) => {
-      if (!difference) return h("td", { class: "n" }, "–");
-      const part = difference.relative === null ? "" : `${signed(100 * difference.relative)} %`;
-      const errors = difference.standard_errors === null ? "" : ` (${signed(difference.standard_errors)} s.e.)`;
-      return h("td", { class: difference.clear ? "n clear" : "n" }, part + errors);
-    });
-    return h("tr", {}, h("th", { scope: "row" }, parameter.name), h("td", {}, parameter.unit), ...values, ...differences);
-  });
-  const headings = head.map((text) => h("th", { scope: "col" }, text));
-  return h(
-    "div",
-    { class: "wide", tabindex: 0, role: "group", "aria-label": "Comparison" },
-    h("table", { id: "comparison" }, h("thead", {}, h("tr", {}, ...headings)), h("tbody", {}, ...rows)),
-    h("p", { class: "why" }, "s.e.: standard errors. * a finding makes it doubtful."),
-  );
-}
-
-function signed(value: number): string {
-  const text = Number(value.toPrecision(3)).toString().replace("-", "−");
-  return value > 0 ? `+${text}` : text;
-}
-
-/** A value to two digits of its standard error. */
-function digits(value: number, std: number): string {
-  const least = std > 0 ? Math.floor(Math.log10(std)) - 1 : Math.floor(Math.log10(Math.abs(value) || 1)) - 5;
-  const count = Math.max(1, Math.floor(Math.log10(Math.abs(value) || 1)) - least + 1);
-  return `${Number(value.toPrecision(Math.min(count, 15)))} ± ${Number(std.toPrecision(2))}`.replaceAll("-", "−");
 }
 
 function title(result: Result): string {

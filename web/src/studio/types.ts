@@ -122,20 +122,3 @@ export interface Trace {
   /** Number of samples of what is shown. */
   readonly samples: number;
 }
-
-interface Estimate {
-  readonly value: number;
-  readonly std: number;
-}
-
-export interface Compared {
-  readonly clear_standard_errors: number;
-  readonly results: readonly { readonly file: string }[];
-  readonly parameters: readonly {
-    readonly name: string;
-    readonly unit: string;
-    readonly values: readonly (Estimate | null)[];
-    readonly warnings: readonly (readonly string[])[];
-    readonly differences: readonly ({ readonly relative: number | null; readonly standard_errors: number | null; readonly clear: boolean } | null)[];
-  }[];
-}

@@ -18,6 +18,8 @@ use super::man_args::ManArgs;
 use super::model_args::ModelArgs;
 use super::payload_args::PayloadArgs;
 use super::plan_args::PlanArgs;
+use super::plot_args::PlotArgs;
+use super::report_args::ReportArgs;
 use super::rig_args::RigArgs;
 #[cfg(feature = "studio")]
 use super::studio_args::StudioArgs;
@@ -63,6 +65,10 @@ pub(crate) enum Command {
     /// Identify the logs of many machines; summarise them
     #[cfg(feature = "fleet")]
     Fleet(FleetArgs),
+    /// Write the report page of a stored result
+    Report(ReportArgs),
+    /// Draw one figure of a stored result as SVG, PNG or PDF
+    Plot(PlotArgs),
     /// Show the parameters of two or more results side by side
     Compare(CompareArgs),
     /// Write a model for python-control, MATLAB, MuJoCo, URDF or C

@@ -17,13 +17,16 @@ pub(crate) struct CompareArgs {
     /// Write JSON to FILE (without FILE: print only JSON); put it last
     #[arg(long, value_name = "FILE", num_args = 0..=1, default_missing_value = STDOUT)]
     pub(crate) json: Option<PathBuf>,
+    /// Write a self-contained HTML page with the intervals side by side
+    #[arg(long, value_name = "FILE")]
+    pub(crate) report: Option<PathBuf>,
 }
 
 const HELP: &str = "\
 Examples:
   lissom identify march/campaign.toml --json march.json
   lissom identify april/campaign.toml --json april.json
-  lissom compare march.json april.json
+  lissom compare march.json april.json --report comparison.html
 
 Each result is compared with the first. A difference is given in percent and in standard errors of
 the difference (s.e.); above 3 s.e. it is called clear. The results must come from different logs.

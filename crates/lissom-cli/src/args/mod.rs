@@ -18,9 +18,12 @@ pub(crate) mod man_args;
 pub(crate) mod model_args;
 pub(crate) mod payload_args;
 pub(crate) mod plan_args;
+pub(crate) mod plot_args;
 pub(crate) mod positive_time;
+pub(crate) mod report_args;
 pub(crate) mod rig_args;
 pub(crate) mod stdout_name;
+pub(crate) mod stored_args;
 #[cfg(feature = "studio")]
 pub(crate) mod studio_args;
 pub(crate) mod thresholds_args;

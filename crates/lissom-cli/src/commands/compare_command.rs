@@ -4,6 +4,7 @@ use std::path::{Path, PathBuf};
 
 use lissom_io::write::{self, Batch};
 use lissom_io::{ComparedFile, Error, read_result};
+use lissom_views::compare_page;
 
 use crate::args::compare_args::CompareArgs;
 use crate::args::stdout_name::STDOUT;
@@ -15,19 +16,25 @@ use crate::views::{compare_table, printer};
 pub(crate) fn run(args: &CompareArgs) -> Result<ExitCode, Failure> {
     let json = args.json.as_deref();
     let json_file = json.filter(|path| *path != Path::new(STDOUT));
-    output_guard::guard(json_file, None)?;
+    let report = args.report.as_deref();
+    output_guard::guard(json_file, report)?;
     let inputs: Vec<&Path> = args.results.iter().map(AsRef::as_ref).collect();
     output_guard::guard_inputs(json_file, &inputs)?;
+    output_guard::guard_inputs(report, &inputs)?;
     // In `--json a.json b.json c.json` the first is a result, too.
     if let Some(file) = json_file.filter(|file| is_result(file)) {
         return Err(Failure::NotAnOutput { file: file.to_owned() });
     }
     let found = compared(&args.results)?;
+    let mut batch = Batch::new();
     if let Some(path) = json_file {
-        let mut batch = Batch::new();
         batch.file(path, write::json_text(path, &found)?.as_bytes())?;
-        batch.commit()?;
     }
+    if let Some(path) = report {
+        let page = compare_page::page("Comparison", &found);
+        batch.file(path, page.to_html().as_bytes())?;
+    }
+    batch.commit()?;
     if json.is_some() && json_file.is_none() {
         printer::json(&found)?;
     } else {

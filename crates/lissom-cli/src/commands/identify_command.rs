@@ -8,16 +8,18 @@ use lissom::identify::{Effort, Identified, SearchEnd, Severity};
 use lissom_io::write::{self, Batch};
 use lissom_io::{ResultFile, UnitNames, read_campaign};
 use lissom_views::known_arm::checked;
-use lissom_views::{Reference, own_logs, report_page, result_figures};
+use lissom_views::report_page::{self, PageContent};
+use lissom_views::{Reference, result_figures};
 
 use crate::args::identify_args::IdentifyArgs;
 use crate::args::stdout_name::STDOUT;
-use crate::shared::command_hint::PAGE_HINTS;
+use crate::shared::command_hint::page_hints;
 use crate::shared::exit_codes::ExitCode;
 use crate::shared::failure::Failure;
 use crate::shared::output_guard;
 use crate::tasks::described_logs::{is_toml, notes};
 use crate::tasks::identification::{Asked, first_answer, identified};
+use crate::tasks::page_logs::predicted;
 use crate::views::{
     arm_check_words, campaign_summary, draft_lines, equivalent_table, finding_list,
     parameter_table, plot_file, printer, separability_words,
@@ -42,6 +44,7 @@ pub(crate) fn run(args: &IdentifyArgs) -> Result<ExitCode, Failure> {
     if to_terminal && asked.effort != Effort::Quick {
         let first = first_answer(name, &file, asked)?;
         printer::line("first result, before the search (running now):");
+        let first = ResultFile::of(&file.campaign.channels, &first, None);
         parameter_table::parameters(names, &first, reference);
         printer::line("");
     }
@@ -51,22 +54,18 @@ pub(crate) fn run(args: &IdentifyArgs) -> Result<ExitCode, Failure> {
     let mut batch = Batch::new();
     if let Some(path) = &args.report {
         let title = name.display().to_string();
-        let page = report_page::page(
-            &title,
-            &file.campaign,
-            &id,
-            own_logs(&file.campaign, &id).as_ref(),
-            reference,
-            geometry.as_ref(),
-            PAGE_HINTS,
-        );
+        let own = predicted(&file.campaign, id.arm.as_ref());
+        let logs = own.as_ref().map(|own| (&file.campaign, own));
+        let hints = &page_hints(&id.findings);
+        let page =
+            report_page::page(&title, PageContent { result: &result, logs, reference, hints });
         batch.file(path, page.to_html().as_bytes())?;
     }
     if let Some(path) = json_file {
         batch.file(path, write::json_text(path, &result)?.as_bytes())?;
     }
     if let Some(folder) = &args.plots {
-        let plots = result_figures(&file.campaign.channels, &id, reference);
+        let plots = result_figures(&result, reference);
         plot_file::add_all(&mut batch, folder, &plots)?;
     }
     batch.commit()?;
@@ -83,14 +82,14 @@ pub(crate) fn run(args: &IdentifyArgs) -> Result<ExitCode, Failure> {
         campaign_summary::ranges(names, &file.campaign);
         campaign_summary::runs(&id);
         printer::line("");
-        parameter_table::parameters(names, &id, reference);
+        parameter_table::parameters(names, &result, reference);
         parameter_table::speeds_of_law(names, &id);
         parameter_table::line_of_least_squares(names, &id);
-        parameter_table::constant_velocity(names, &id);
-        if let Some(found) = &id.equivalent {
+        parameter_table::constant_velocity(names, &result);
+        if let Some(found) = &result.equivalent {
             equivalent_table::brief(names, found);
         }
-        arm_check_words::print(geometry.as_ref());
+        arm_check_words::print(result.geometry.as_ref());
         separability_words::print(names.axis, &id);
         finding_list::findings(&id.findings);
     }

@@ -17,6 +17,8 @@ pub(crate) mod man_command;
 pub(crate) mod model_command;
 pub(crate) mod payload_command;
 pub(crate) mod plan;
+pub(crate) mod plot_command;
+pub(crate) mod report_command;
 pub(crate) mod report_figures;
 pub(crate) mod rig;
 #[cfg(feature = "studio")]

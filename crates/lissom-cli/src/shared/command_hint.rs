@@ -4,14 +4,34 @@ use lissom::identify::findings::{
     EquivalentFinding, EquivalentMotorFinding, FindingKind, OutputErrorFinding, RegressionFinding,
     ValidationFinding,
 };
-use lissom::identify::{EquivalentRefusal, MissingKind, MovedBy};
+use lissom::identify::{EquivalentRefusal, Finding, MissingKind, MovedBy};
+use lissom_io::result::FindingEntry;
 use lissom_views::ProgramHints;
 
-/// What the command adds to the report page.
-pub(crate) const PAGE_HINTS: ProgramHints = ProgramHints {
-    of_finding: command_hint,
-    equivalent_intervals: Some("The command lissom equivalent gives the 95 % intervals."),
-};
+/// What the command adds to the report page of an identification.
+pub(crate) fn page_hints(findings: &[Finding]) -> ProgramHints {
+    hints_of(findings.iter().map(|finding| command_hint(&finding.kind)))
+}
+
+/// What the command adds to the report page of a stored result. Only the codes of its findings are known.
+pub(crate) fn stored_page_hints(findings: &[FindingEntry]) -> ProgramHints {
+    hints_of(findings.iter().map(|finding| code_hint(&finding.code)))
+}
+
+fn hints_of(of_findings: impl Iterator<Item = Option<&'static str>>) -> ProgramHints {
+    let equivalent_intervals = Some("The command lissom equivalent gives the 95 % intervals.");
+    ProgramHints { of_findings: of_findings.collect(), equivalent_intervals }
+}
+
+/// The hint of findings for which it does not depend on their numbers.
+fn code_hint(code: &str) -> Option<&'static str> {
+    match code {
+        "one-sine" => Some(WITHOUT_QUICK),
+        "more-than-noise" => Some(RESIDUALS),
+        "faint-mode" => Some(MODEL_MODES),
+        _ => None,
+    }
+}
 
 /// The option or command that helps with a finding, in addition to the finding's own hint.
 pub(crate) fn command_hint(kind: &FindingKind) -> Option<&'static str> {
@@ -20,12 +40,8 @@ pub(crate) fn command_hint(kind: &FindingKind) -> Option<&'static str> {
         FindingKind::Regression(RegressionFinding::MissingTerm { term, .. }) => {
             (term.kind == MissingKind::BeamDamping).then_some(WITHOUT_QUICK)
         }
-        FindingKind::OutputError(OutputErrorFinding::MoreThanNoise { .. }) => {
-            Some("`lissom validate RESULT CAMPAIGN` shows the residual of each channel")
-        }
-        FindingKind::OutputError(OutputErrorFinding::FaintMode { .. }) => {
-            Some("`lissom model ARM` gives the frequencies of a beam of known dimensions")
-        }
+        FindingKind::OutputError(OutputErrorFinding::MoreThanNoise { .. }) => Some(RESIDUALS),
+        FindingKind::OutputError(OutputErrorFinding::FaintMode { .. }) => Some(MODEL_MODES),
         FindingKind::Equivalent(found) => equivalent(found),
         FindingKind::EquivalentMotor(EquivalentMotorFinding::EquivalentMotorFriction {
             ..
@@ -78,5 +94,7 @@ pub(crate) fn refusal_hint(refusal: &EquivalentRefusal) -> Option<&'static str> 
     }
 }
 
+const RESIDUALS: &str = "`lissom validate RESULT CAMPAIGN` shows the residual of each channel";
+const MODEL_MODES: &str = "`lissom model ARM` gives the frequencies of a beam of known dimensions";
 const WITHOUT_QUICK: &str =
     "this method is used unless --quick is given or the command is too noisy for it";

@@ -74,6 +74,12 @@ pub(crate) enum Failure {
     /// A manual page that cannot be made.
     #[error("{}: {source}", path.display())]
     Page { path: PathBuf, source: std::io::Error },
+    /// A figure that a result does not have.
+    #[error("{}: has no figure `{name}`", result.display())]
+    NoFigure { result: PathBuf, name: String, near: Option<String>, needs_logs: bool },
+    /// A run of which there is no such figure.
+    #[error("{}: has no figure `{figure}` of a run `{run}`", result.display())]
+    NoRunOfFigure { result: PathBuf, figure: String, run: String, near: Option<String> },
     #[error("the plot could not be drawn: {0}")]
     Figure(#[from] FigureError),
 }
@@ -109,7 +115,7 @@ impl Failure {
                 Some(place.clone().unwrap_or_else(|| equivalent_hint(source)))
             }
             Self::UndescribedLog { log } if log.extension().is_some_and(|e| e == "json") => {
-                Some("give first the result, then the log: lissom validate result.json campaign.toml".to_owned())
+                Some("give first the result, then the log, as in result.json campaign.toml".to_owned())
             }
             Self::UndescribedLog { .. } => Some(
                 "add --like campaign.toml with the campaign of the result, or describe the log in its own \
@@ -143,6 +149,13 @@ impl Failure {
                 Some("give another --out, or delete the folder if you do not need it".to_owned())
             }
             Self::Exists { .. } => Some("give another name with --out".to_owned()),
+            Self::NoFigure { needs_logs: true, .. } => {
+                Some("give the logs too: lissom plot result.json campaign.toml --figure NAME".to_owned())
+            }
+            Self::NoFigure { near, .. } | Self::NoRunOfFigure { near, .. } => {
+                let meant = near.as_ref().map_or_else(String::new, |near| format!("did you mean `{near}`? "));
+                Some(format!("{meant}without --figure, `lissom plot RESULT [LOG...]` lists figures and runs"))
+            }
             Self::SameOutput { .. } | Self::IsInput { .. } => {
                 Some("give each output a file of its own".to_owned())
             }

@@ -22,6 +22,14 @@ pub(crate) fn guard(json: Option<&Path>, report: Option<&Path>) -> Result<(), Fa
     Ok(())
 }
 
+/// Refuses to overwrite a file whose first character is another than `first`, with which all outputs of its kind begin.
+pub(crate) fn guard_first(out: &Path, first: u8) -> Result<(), Failure> {
+    if begins_otherwise(out, first) {
+        return Err(Failure::NotAnOutput { file: out.to_owned() });
+    }
+    Ok(())
+}
+
 /// Refuses to overwrite a file without the text that all outputs of its kind have.
 pub(crate) fn guard_marked(out: &Path, mark: &str) -> Result<(), Failure> {
     let marked = |bytes: Vec<u8>| bytes.windows(mark.len()).any(|part| part == mark.as_bytes());

@@ -26,6 +26,19 @@ pub(crate) fn stages(length: usize) -> ProgressBar {
     bar
 }
 
+/// Does `work` of unknown length, with a clock meanwhile.
+pub(crate) fn during<T>(what: &'static str, work: impl FnOnce() -> T) -> T {
+    let spinner = ProgressBar::new_spinner();
+    if let Ok(style) = ProgressStyle::with_template("{spinner} {msg} {elapsed}") {
+        spinner.set_style(style);
+    }
+    spinner.set_message(what);
+    spinner.enable_steady_tick(Duration::from_millis(100));
+    let done = work();
+    spinner.finish_and_clear();
+    done
+}
+
 /// Progress of an identification: its stages, then the evaluations of the search.
 pub(crate) struct Stages {
     bar: ProgressBar,

@@ -8,5 +8,7 @@ pub(crate) mod identification;
 pub(crate) mod load_study;
 pub(crate) mod mode_shapes;
 pub(crate) mod model_task;
+pub(crate) mod page_logs;
 pub(crate) mod printed_coulomb;
 pub(crate) mod rig_campaign;
+pub(crate) mod stored_result;

@@ -1,9 +1,10 @@
 //! Tables of an equivalent arm.
 
 use lissom::beam::RootClass;
-use lissom::identify::{Equivalent, Estimate, ResponseZero, StdSource, StrainlessForm};
+use lissom::identify::{Equivalent, Estimate, ResponseZero, StdSource};
 use lissom::{EquivalentInput, KnownMotor};
 use lissom_io::UnitNames;
+use lissom_io::result::{EquivalentEntry, StrainlessEntry};
 use lissom_report::{interval, with_uncertainty};
 use lissom_views::digits::counted;
 use lissom_views::equivalent_section::{equation, heading, rows_for_use, torque_name};
@@ -20,16 +21,17 @@ pub(crate) fn print(input: &EquivalentInput, found: &Equivalent) {
     }
     printer::line("");
     as_fitted(input, found);
-    if let Some(form) = &found.strainless {
+    let entry = EquivalentEntry::of(input.names, found);
+    if let Some(form) = &entry.strainless {
         printer::line("");
-        for_use(input.names, found, form);
+        for_use(input.names, &entry, form);
     }
     printer::line("");
     zeros(found);
 }
 
 /// Prints the equivalent arm in the output of `identify`.
-pub(crate) fn brief(names: UnitNames, found: &Equivalent) {
+pub(crate) fn brief(names: UnitNames, found: &EquivalentEntry) {
     let Some(form) = &found.strainless else { return };
     let modes = counted(found.modes.len(), "mode");
     printer::line(&format!(
@@ -124,12 +126,13 @@ fn figures(input: &EquivalentInput, found: &Equivalent) {
 }
 
 fn as_fitted(input: &EquivalentInput, found: &Equivalent) {
-    let mut rows = vec![heading(found, "as fitted (17)-(18)")];
+    let points: Vec<String> = found.points.iter().map(|i| found.names[*i].clone()).collect();
+    let mut rows = vec![heading(&points, "as fitted (17)-(18)")];
     let beam = &found.beam;
     let count = found.points.len();
-    for i in 0..count {
+    for (i, point) in points.iter().enumerate() {
         let of = |j: usize| with_uncertainty(beam.a[(i, j)], beam.a_std[(i, j)]);
-        let mut row = vec![equation(found, i)];
+        let mut row = vec![equation(point)];
         row.extend((0..count).map(of));
         row.push(with_uncertainty(beam.b[i], beam.b_std[i]));
         rows.push(row);
@@ -142,7 +145,7 @@ fn as_fitted(input: &EquivalentInput, found: &Equivalent) {
     printer::table(&rows);
 }
 
-fn for_use(names: UnitNames, found: &Equivalent, form: &StrainlessForm) {
+fn for_use(names: UnitNames, found: &EquivalentEntry, form: &StrainlessEntry) {
     printer::table(&rows_for_use(names, found, form));
 }
 

@@ -9,6 +9,7 @@ pub(crate) mod compare_table;
 pub(crate) mod demo_table;
 pub(crate) mod draft_lines;
 pub(crate) mod equivalent_table;
+pub(crate) mod figure_table;
 pub(crate) mod finding_list;
 #[cfg(feature = "fleet")]
 pub(crate) mod fleet_run_lines;

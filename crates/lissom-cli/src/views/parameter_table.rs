@@ -1,7 +1,8 @@
 //! The parameters of a result.
 
 use lissom::identify::{Estimate, Identified, Method};
-use lissom_io::UnitNames;
+use lissom_io::result::DirectionName;
+use lissom_io::{ResultFile, UnitNames};
 use lissom_report::{interval, significant, with_uncertainty};
 use lissom_views::digits::counted;
 use lissom_views::known_arm::Reference;
@@ -10,14 +11,14 @@ use lissom_views::parameter_rows::{KNOWN_DIGITS, classical_rows, parameter_rows}
 use super::printer::{line, table};
 
 /// Prints the parameters, each with its 95 % interval and the value that is known beforehand.
-pub(crate) fn parameters(names: UnitNames, id: &Identified, reference: Option<&Reference>) {
-    if let Some(method) = id.method {
+pub(crate) fn parameters(names: UnitNames, result: &ResultFile, reference: Option<&Reference>) {
+    if let Some(method) = result.from {
         line(&format!("estimates by {}", method.words()));
     }
     let mut heading = vec!["parameter", "value", "unit", "95 % interval"];
     heading.extend(reference.map(|r| r.label));
     let mut rows = vec![heading.into_iter().map(str::to_owned).collect::<Vec<_>>()];
-    rows.extend(parameter_rows(names, id, reference).into_iter().map(|row| {
+    rows.extend(parameter_rows(names, result, reference).into_iter().map(|row| {
         let (value, within) = match row.estimate {
             Some(e) => {
                 let shown = interval(e.ci95(), e.value, e.std);
@@ -92,10 +93,10 @@ pub(crate) fn speeds_of_law(names: UnitNames, id: &Identified) {
 }
 
 /// Prints friction by the method of constant velocities.
-pub(crate) fn constant_velocity(names: UnitNames, id: &Identified) {
-    let Some(found) = &id.constant_velocity else { return };
+pub(crate) fn constant_velocity(names: UnitNames, result: &ResultFile) {
+    let Some(found) = &result.methods.constant_velocity else { return };
     let mut rows = vec![["constant velocity", "value", "unit", "95 % interval"].map(str::to_owned)];
-    rows.extend(classical_rows(names, id, found).into_iter().map(|row| match row.estimate {
+    rows.extend(classical_rows(names, found).into_iter().map(|row| match row.estimate {
         Some(e) => {
             let within = interval(e.ci95(), e.value, e.std);
             [row.name, with_uncertainty(e.value, e.std), row.unit, within]
@@ -104,10 +105,10 @@ pub(crate) fn constant_velocity(names: UnitNames, id: &Identified) {
     }));
     line("");
     table(&rows.into_iter().map(Vec::from).collect::<Vec<_>>());
-    let number = |sign: f64| found.points.iter().filter(|p| p.velocity.value * sign > 0.0).count();
+    let number = |direction| found.points.iter().filter(|p| p.direction == direction).count();
     line(&format!(
         "from straight lines of friction against speed, through {} forward and {} backward",
-        counted(number(1.0), "point"),
-        counted(number(-1.0), "point")
+        counted(number(DirectionName::Forward), "point"),
+        counted(number(DirectionName::Backward), "point")
     ));
 }

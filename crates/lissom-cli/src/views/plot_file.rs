@@ -9,7 +9,7 @@ use lissom_views::NamedFigure;
 use crate::shared::failure::Failure;
 
 /// Scale of the PNG.
-const PNG_SCALE: f32 = 2.0;
+pub(crate) const PNG_SCALE: f32 = 2.0;
 
 /// Adds one plot to the files to write, as SVG and PNG.
 pub(crate) fn add(

@@ -75,7 +75,7 @@ pub use separability::{
     Carried, Direction, DirectionPart, ParameterCertainty, RunShare, RunToAdd, Separability,
 };
 pub use validation::{
-    Cause, CauseKind, ChannelFit, ChannelResidual, Horizon, MovedBy, MovedMode, PredictedStretch,
-    TorquePrediction, TorqueRun, TorqueStretch, TorqueTerms, Validation, ValidationError,
-    ValidationOptions, validate,
+    Cause, CauseKind, ChannelFit, ChannelResidual, Horizon, LogPrediction, MovedBy, MovedMode,
+    PredictedStretch, TorquePrediction, TorqueRun, TorqueStretch, TorqueTerms, Validation,
+    ValidationError, ValidationOptions, predict_logs, validate,
 };

@@ -79,6 +79,14 @@ pub enum DirectionName {
 }
 
 impl DirectionName {
+    /// Its sign: +1 or −1.
+    pub fn sign(self) -> f64 {
+        match self {
+            Self::Forward => 1.0,
+            Self::Backward => -1.0,
+        }
+    }
+
     /// Forward if `forward` is true, otherwise backward.
     pub(crate) fn of(forward: bool) -> Self {
         if forward { Self::Forward } else { Self::Backward }

@@ -7,8 +7,8 @@ use super::channel_names::DirectionName;
 use super::estimate_entry::EstimateEntry;
 use super::estimate_keys::{Estimated, Refusable};
 use super::unit_keys::{
-    BackwardKey, CoulombKey, ForwardKey, MeanCommandKey, OffsetKey, SlowestKey, VelocityKey,
-    ViscousKey, WithUnit,
+    BackEmfKey, BackwardKey, CoulombKey, ForwardKey, MeanCommandKey, OffsetKey, SlowestKey,
+    VelocityKey, ViscousKey, WithUnit,
 };
 use super::unit_names::UnitNames;
 
@@ -31,6 +31,9 @@ pub struct ConstantVelocityEntry {
     /// Viscous friction, mean of both directions.
     #[serde(flatten)]
     pub viscous: Refusable<ViscousKey>,
+    /// Damping by back-EMF that the campaign gives, which the slopes do not contain.
+    #[serde(flatten)]
+    pub back_emf: WithUnit<BackEmfKey, f64>,
     /// The straight line for each direction that has one.
     pub lines: Vec<FrictionLineEntry>,
     /// Stretches at a constant velocity.
@@ -107,6 +110,7 @@ impl ConstantVelocityEntry {
         names: UnitNames,
         constant: f64,
         c: &ConstantVelocity,
+        back_emf: f64,
         runs: &[RunAnalysis],
     ) -> Self {
         let (forward, backward) = (c.forward.as_ref().ok(), c.backward.as_ref().ok());
@@ -120,6 +124,7 @@ impl ConstantVelocityEntry {
             backward: WithUnit::torque(names, constant, backward.map(|l| l.coulomb)),
             offset: WithUnit::torque(names, constant, c.offset),
             viscous: WithUnit::new(names, EstimateEntry::or_null(c.viscous)),
+            back_emf: WithUnit::new(names, back_emf),
             lines: lines.collect(),
             points: c.points.iter().map(|p| SteadyPointEntry::of(names, p, runs)).collect(),
         }

@@ -21,6 +21,11 @@ impl EstimateEntry {
         Self { value: e.value, std: e.std, ci95: e.ci95() }
     }
 
+    /// The estimate.
+    pub fn estimate(&self) -> Estimate {
+        Estimate { value: self.value, std: self.std }
+    }
+
     /// The entry of an estimate that may be refused.
     pub(crate) fn or_null(e: Option<Estimate>) -> Option<Self> {
         e.map(Self::of)

@@ -3,7 +3,7 @@
 use lissom_core::identify::{CurvePoint, Friction, Identified};
 use serde::{Deserialize, Serialize};
 
-use super::channel_names::DirectionName;
+use super::channel_names::{AxisName, DirectionName};
 use super::estimate_entry::EstimateEntry;
 use super::estimate_keys::{Estimated, Refusable};
 use super::friction_term_entries::FrictionTermsEntry;
@@ -84,6 +84,36 @@ impl CoulombEntry {
 }
 
 impl FrictionEntry {
+    /// The units of an axis of this kind, by the keys of Coulomb friction.
+    pub(super) fn names(&self, axis: AxisName) -> Option<UnitNames> {
+        let of_axis = |names: &&UnitNames| AxisName::of(names.axis) == axis;
+        let all = UnitNames::ALL.iter().filter(of_axis);
+        all.copied().find(|names| self.coulomb.coulomb.has_keys_of(*names))
+    }
+
+    /// Friction against the motion at a speed in a direction, without ripples; positive if it brakes. `None` if one of its
+    /// parameters is refused.
+    pub fn at(&self, names: UnitNames, speed: f64, direction: DirectionName) -> Option<f64> {
+        let value = |entry: Option<&Option<EstimateEntry>>| Some(entry?.as_ref()?.value);
+        let coulomb = match direction {
+            DirectionName::Forward => value(self.coulomb.forward.get(names)),
+            DirectionName::Backward => value(self.coulomb.backward.get(names)),
+        };
+        let one_way = match direction {
+            DirectionName::Forward => self.viscous_forward.get(names),
+            DirectionName::Backward => self.viscous_backward.get(names),
+        };
+        let viscous = match one_way {
+            Some(viscous) => viscous.value,
+            None => value(self.viscous.get(names))?,
+        };
+        let near = self.terms.near_rest.as_ref().map_or(Some(0.0), |near| {
+            let share = near.falloff.falloff().share(speed / near.speed.get(names)?.value);
+            Some(value(near.amplitude.get(names))? * share)
+        });
+        Some(coulomb? + viscous * speed + near?)
+    }
+
     /// The entry of a result's friction; `constant` is torque per command.
     pub(crate) fn of(names: UnitNames, constant: f64, id: &Identified) -> Self {
         let f = &id.friction;

@@ -3,6 +3,7 @@
 use lissom_core::identify::{Estimate, FrictionLaw, LawCandidate, LawFit, LawTerm};
 use serde::{Deserialize, Serialize};
 
+use super::channel_names::DirectionName;
 use super::estimate_entry::EstimateEntry;
 use super::estimate_keys::{Estimated, Refusable};
 use super::friction_term_entries::{LawTermEntry, amplitude_key};
@@ -119,6 +120,19 @@ impl FrictionLawEntry {
 }
 
 impl ChosenLawEntry {
+    /// Friction against the motion at a speed in a direction, without ripples; positive if it brakes. `None` if Coulomb or
+    /// viscous friction is refused.
+    pub fn at(&self, names: UnitNames, speed: f64, direction: DirectionName) -> Option<f64> {
+        let value = |entry: Option<&Option<EstimateEntry>>| Some(entry?.as_ref()?.value);
+        let mut sum = value(self.coulomb.get(names))? + value(self.viscous.get(names))? * speed;
+        sum += direction.sign() * value(self.offset.get(names)).unwrap_or(0.0);
+        for ChosenTermEntry { term, amplitude } in &self.terms {
+            let amplitude = amplitude.any().and_then(|all| all.first()).map_or(0.0, |e| e.value);
+            sum += amplitude * term.share(names, speed, direction);
+        }
+        Some(sum)
+    }
+
     fn of(names: UnitNames, constant: f64, fit: &LawFit) -> Self {
         let term = |(term, amplitudes): &(LawTerm, Vec<Estimate>)| ChosenTermEntry {
             term: LawTermEntry::of(names, *term),

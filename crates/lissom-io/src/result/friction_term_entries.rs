@@ -7,7 +7,7 @@ use lissom_core::replay::{DryTerms, NearRest, Ripple};
 use serde::{Deserialize, Serialize};
 
 use super::arm_numbers::{Number, Numbers, WrongKey};
-use super::channel_names::FalloffName;
+use super::channel_names::{DirectionName, FalloffName};
 use super::estimate_entry::EstimateEntry;
 use super::estimate_keys::{Estimated, Refusable};
 use super::unit_keys::{
@@ -264,7 +264,38 @@ impl LawTermEntry {
     }
 }
 
+impl LawTermEntry {
+    /// Friction against the motion at a speed in a direction, for an amplitude of one; zero for what is no function of speed.
+    pub(super) fn share(&self, names: UnitNames, speed: f64, direction: DirectionName) -> f64 {
+        match self.term {
+            LawTermName::ViscousByDirection => direction.sign() * speed,
+            LawTermName::NearRest => {
+                let (fall, falloff) = (self.speed.get(names), self.falloff);
+                fall.zip(falloff).map_or(0.0, |(fall, of)| of.falloff().share(speed / fall))
+            }
+            LawTermName::Root => speed.sqrt(),
+            LawTermName::CommandLag
+            | LawTermName::Ripple
+            | LawTermName::WithLoad
+            | LawTermName::AfterTravel => 0.0,
+        }
+    }
+}
+
 impl LawTermName {
+    /// Its name as in JSON.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::ViscousByDirection => "viscous-by-direction",
+            Self::NearRest => "near-rest",
+            Self::AfterTravel => "after-travel",
+            Self::Root => "root",
+            Self::WithLoad => "with-load",
+            Self::Ripple => "ripple",
+            Self::CommandLag => "command-lag",
+        }
+    }
+
     fn of(term: LawTerm) -> Self {
         match term {
             LawTerm::ViscousByDirection => Self::ViscousByDirection,

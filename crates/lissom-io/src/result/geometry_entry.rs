@@ -29,6 +29,9 @@ pub struct ExplanationEntry {
     pub factor: EstimateEntry,
     /// Root mean square of the differences with this value.
     pub left_rms: f64,
+    /// Whether it explains the differences as well as the first number, or nearly as well.
+    #[serde(default)]
+    pub as_good_as_first: bool,
 }
 
 /// A quantity of an arm.toml.
@@ -50,17 +53,20 @@ pub enum ArmQuantityName {
 
 impl GeometryEntry {
     /// The entry of a comparison, with every number that was changed.
-    pub(crate) fn of(check: &GeometryCheck) -> Self {
+    pub fn of(check: &GeometryCheck) -> Self {
+        let as_good = check.as_good().count();
+        let explanations = check.explanations.iter().enumerate();
+        let explanations = explanations.map(|(k, e)| ExplanationEntry::of(e, k < as_good));
         Self {
             agrees: check.agrees(),
             difference_rms: check.before,
-            explanations: check.explanations.iter().map(ExplanationEntry::of).collect(),
+            explanations: explanations.collect(),
         }
     }
 }
 
 impl ExplanationEntry {
-    fn of(e: &Explanation) -> Self {
+    fn of(e: &Explanation, as_good_as_first: bool) -> Self {
         let (quantity, span) = match e.quantity {
             ArmQuantity::Length(span) => (ArmQuantityName::Length, span),
             ArmQuantity::Stiffness(span) => (ArmQuantityName::FlexuralRigidity, span),
@@ -73,6 +79,7 @@ impl ExplanationEntry {
             span: span.map(|i| i + 1),
             factor: EstimateEntry::of(e.factor),
             left_rms: e.left,
+            as_good_as_first,
         }
     }
 }

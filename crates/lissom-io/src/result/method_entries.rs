@@ -267,8 +267,10 @@ impl MethodEntries {
                 .friction_law
                 .as_ref()
                 .map(|l| FrictionLawEntry::of(names, constant, l)),
-            constant_velocity: velocity
-                .map(|c| ConstantVelocityEntry::of(names, constant, c, &id.runs)),
+            constant_velocity: velocity.map(|c| {
+                let back_emf = channels.command.back_emf_viscous;
+                ConstantVelocityEntry::of(names, constant, c, back_emf, &id.runs)
+            }),
         }
     }
 }

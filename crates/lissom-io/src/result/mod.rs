@@ -80,7 +80,9 @@ pub use payload_file::{
 pub use read_arm::{arm_of_text, read_arm};
 pub use read_result::{ListedParameter, PHASE_KEY, ParameterList, read_result};
 pub use result_error::ResultError;
-pub use result_file::{BeamEntry, DriveEntry, ResultFile, RunEntry, RunKindName, SinusoidEntry};
+pub use result_file::{
+    BeamEntry, DriveEntry, HarmonicsEntry, ResultFile, RunEntry, RunKindName, SinusoidEntry,
+};
 pub use separability_entry::{
     CorrelationEntry, DirectionPartEntry, MotionKindName, ParameterCertaintyEntry,
     PrincipalDirectionEntry, RunEffectEntry, RunShareEntry, RunToAddEntry, SeparabilityEntry,

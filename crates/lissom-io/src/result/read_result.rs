@@ -169,9 +169,7 @@ impl ParameterPart {
 
     /// The units, by the keys of Coulomb friction.
     fn names(&self) -> Option<UnitNames> {
-        let of_axis = |names: &&UnitNames| AxisName::of(names.axis) == self.axis;
-        let all = UnitNames::ALL.iter().filter(of_axis);
-        all.copied().find(|names| self.friction.coulomb.coulomb.has_keys_of(*names))
+        self.friction.names(self.axis)
     }
 
     /// Terms of the friction law of the result.

@@ -1,8 +1,12 @@
 //! The type of `result.json`: filled from an identification, written and read.
 
+use std::path::Path;
+
 use lissom_core::identify::{GeometryCheck, Identified, RunAnalysis, RunKind};
 use lissom_core::record::Channels;
+use lissom_core::spectrum::Harmonics;
 use serde::{Deserialize, Serialize};
+use serde_json::Value;
 
 use super::arm_entry::ArmEntry;
 use super::channel_names::{AxisName, MethodName};
@@ -19,6 +23,8 @@ use super::result_error::ResultError;
 use super::separability_entry::SeparabilityEntry;
 use super::unit_keys::{CouplingByTipKey, CouplingKey, InertiaKey, WithUnit};
 use super::unit_names::UnitNames;
+use crate::io_error::Error;
+use crate::read_text::read_text;
 
 /// SI units and rad/s. The suffix of a key is its unit: a (A), v (V), command (the unit of the command, if it is
 /// unknown), nm (N*m), n (N). Keys in N*m or N exist if the torque constant is known; otherwise estimates are per unit
@@ -137,17 +143,64 @@ pub struct SinusoidEntry {
     pub dropped_periods: usize,
     /// Share of the cycle in which the joint sticks.
     pub stuck_share: Option<f64>,
+    /// Harmonics of the command.
+    #[serde(default)]
+    pub command_harmonics: HarmonicsEntry,
+    /// Harmonics of the motor's motion.
+    #[serde(default)]
+    pub motor_harmonics: HarmonicsEntry,
+}
+
+/// Harmonics of a signal, from the first one.
+#[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+pub struct HarmonicsEntry {
+    /// Amplitude of each harmonic relative to that of the first one.
+    pub relative_amplitude: Vec<f64>,
+    /// Its standard error.
+    pub relative_std: Vec<f64>,
 }
 
 impl ResultFile {
+    /// Reads a `result.json`.
+    ///
+    /// # Errors
+    /// [`Error::Result`] if the file cannot be read, or is not the result of this version of lissom.
+    pub fn read(path: &Path) -> Result<Self, Error> {
+        let file = path.display().to_string();
+        let text =
+            read_text(path).map_err(|source| ResultError::Read { file: file.clone(), source })?;
+        Ok(Self::of_text(&file, &text)?)
+    }
+
     /// Reads the text of a `result.json`, which errors call `file`.
     ///
     /// # Errors
-    /// [`ResultError::Json`] if the text is not the result of this version of lissom.
+    /// [`ResultError`] if the text is not the result of this version of lissom.
     pub fn of_text(file: &str, text: &str) -> Result<Self, ResultError> {
-        let text = text.trim_start_matches('\u{feff}');
-        serde_json::from_str(text)
-            .map_err(|source| ResultError::Json { file: file.to_owned(), source })
+        let file = || file.to_owned();
+        let root: Value = serde_json::from_str(text.trim_start_matches('\u{feff}'))
+            .map_err(|source| ResultError::Json { file: file(), source })?;
+        for key in ["lissom", "axis", "friction", "drive", "beam", "runs", "findings"] {
+            if root.get(key).is_none() {
+                return Err(ResultError::NoResult { file: file(), key });
+            }
+        }
+        let result: Self = serde_path_to_error::deserialize(&root).map_err(|error| {
+            let key = error.path().to_string();
+            ResultError::Value { file: file(), key, source: error.into_inner() }
+        })?;
+        if result.names().is_none() {
+            let (key, expected) =
+                ("friction.coulomb_…".to_owned(), "given with the units of an axis");
+            return Err(ResultError::Key { file: file(), key, expected });
+        }
+        Ok(result)
+    }
+
+    /// Its units; `None` if its keys do not have the units of an axis, which results from [`Self::of`] always have.
+    pub fn names(&self) -> Option<UnitNames> {
+        self.friction.names(self.axis)
     }
 
     /// The content for an identification, with the comparison with an arm.toml if there is one.
@@ -189,6 +242,21 @@ impl BeamEntry {
     }
 }
 
+impl HarmonicsEntry {
+    /// Empty if the first harmonic has no amplitude.
+    fn of(harmonics: &Harmonics) -> Self {
+        let first = harmonics.get(1).map_or(0.0, |phasor| phasor.value.norm());
+        if first <= 0.0 {
+            return Self::default();
+        }
+        let all = harmonics.phasors.iter();
+        Self {
+            relative_amplitude: all.clone().map(|phasor| phasor.value.norm() / first).collect(),
+            relative_std: all.map(|phasor| phasor.std / first).collect(),
+        }
+    }
+}
+
 impl RunEntry {
     fn of(r: &RunAnalysis) -> Self {
         let (kind, sinusoid) = match &r.kind {
@@ -200,6 +268,8 @@ impl RunEntry {
                     periods: s.steady.periods,
                     dropped_periods: s.steady.dropped,
                     stuck_share: r.stuck_share,
+                    command_harmonics: HarmonicsEntry::of(&s.command),
+                    motor_harmonics: HarmonicsEntry::of(&s.motor),
                 }),
             ),
             _ if r.is_constant_velocity() => (RunKindName::ConstantVelocity, None),

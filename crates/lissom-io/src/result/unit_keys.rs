@@ -103,6 +103,8 @@ quantities! {
     ViscousForwardKey = "viscous_forward" in Viscous;
     /// Viscous friction while moving backward.
     ViscousBackwardKey = "viscous_backward" in Viscous;
+    /// Damping by back-EMF, which belongs to the drive and not to friction.
+    BackEmfKey = "back_emf" in Viscous;
     /// Inertia, or mass of a linear axis.
     InertiaKey = "inertia" in Inertia;
     /// Torque per angle between motor and beam, h_{n+1} of (15).
@@ -195,13 +197,18 @@ impl<Q: Quantity, T> WithUnit<Q, T> {
         self.under_key(&Q::keys(names).pop()?)
     }
 
+    /// The value of a torque in the unit of the command.
+    pub fn in_command(&self, names: UnitNames) -> Option<&T> {
+        self.of_command(names).map(|(_, value)| value)
+    }
+
     /// The value of a torque in the unit of the command, and its key.
     pub(crate) fn of_command(&self, names: UnitNames) -> Option<(&str, &T)> {
         self.under_key(Q::keys(names).first()?)
     }
 
     /// The first of its values, in any unit.
-    pub(crate) fn any(&self) -> Option<&T> {
+    pub fn any(&self) -> Option<&T> {
         self.entries.first().map(|entry| &entry.1)
     }
 

@@ -46,12 +46,18 @@ impl Client {
         let json = [("Content-Type", "application/json")];
         let answer = client.raw("POST", "/api/key", &json, body.as_bytes());
         assert_eq!(answer.status, 200, "{}", answer.body);
-        client.key = answer.json()["key"].as_str().unwrap().to_owned();
+        answer.json()["key"].as_str().unwrap().clone_into(&mut client.key);
         client
     }
 
     /// A request with a host and these headers, and no others.
-    pub(crate) fn raw(&self, method: &str, path: &str, headers: &[(&str, &str)], body: &[u8]) -> Answer {
+    pub(crate) fn raw(
+        &self,
+        method: &str,
+        path: &str,
+        headers: &[(&str, &str)],
+        body: &[u8],
+    ) -> Answer {
         let mut head = format!("{method} {path} HTTP/1.1\r\nConnection: close\r\n");
         if !headers.iter().any(|(name, _)| *name == "Host") {
             let _ = write!(head, "Host: 127.0.0.1:{}\r\n", self.port);

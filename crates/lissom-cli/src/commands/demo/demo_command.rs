@@ -4,17 +4,19 @@ use std::path::Path;
 
 use lissom_io::write::{self, Batch};
 use lissom_io::{ArmFile, ResultFile, read_campaign};
-use lissom_views::{Reference, own_logs, report_page, result_figures};
+use lissom_views::report_page::{self, PageContent};
+use lissom_views::{Reference, result_figures};
 
 use super::demo_campaign;
 use crate::args::demo_args::DemoArgs;
 use crate::args::stdout_name::STDOUT;
-use crate::shared::command_hint::PAGE_HINTS;
+use crate::shared::command_hint::page_hints;
 use crate::shared::exit_codes::ExitCode;
 use crate::shared::failure::Failure;
 use crate::shared::output_guard;
 use crate::tasks::demo_comparison::{compared, comparison};
 use crate::tasks::identification::{Asked, identified};
+use crate::tasks::page_logs::predicted;
 use crate::views::{demo_table, plot_file, printer};
 
 /// The arm.toml of the demo.
@@ -38,11 +40,13 @@ pub(crate) fn run(args: &DemoArgs) -> Result<ExitCode, Failure> {
     let result = ResultFile::of(channels, &id, None);
     write::write_json(&out.join("result.json"), &result)?;
     let mut batch = Batch::new();
-    plot_file::add_all(&mut batch, out, &result_figures(channels, &id, Some(&truth)))?;
+    plot_file::add_all(&mut batch, out, &result_figures(&result, Some(&truth)))?;
     batch.commit()?;
-    let own = own_logs(&file.campaign, &id);
-    let (own, truth) = (own.as_ref(), Some(&truth));
-    let page = report_page::page("lissom demo", &file.campaign, &id, own, truth, None, PAGE_HINTS);
+    let own = predicted(&file.campaign, id.arm.as_ref());
+    let logs = own.as_ref().map(|own| (&file.campaign, own));
+    let (reference, hints) = (Some(&truth), &page_hints(&id.findings));
+    let content = PageContent { result: &result, logs, reference, hints };
+    let page = report_page::page("lissom demo", content);
     write::write_text(&out.join("report.html"), &page.to_html())?;
 
     let rows = comparison(&rig.arm, &id);

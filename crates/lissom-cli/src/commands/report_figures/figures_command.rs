@@ -3,7 +3,7 @@
 use std::path::Path;
 
 use lissom_io::write::{self, Batch};
-use lissom_io::{ArmFile, PlanFile, UnitNames, read_campaign};
+use lissom_io::{ArmFile, PlanFile, ResultFile, UnitNames, read_campaign};
 use lissom_views::bode_plots::bode_plots;
 use lissom_views::known_arm::Reference;
 use lissom_views::velocity_friction::friction_plot;
@@ -42,14 +42,15 @@ pub(crate) fn run(args: &FiguresArgs) -> Result<ExitCode, Failure> {
     let id = identified(&campaign, &file, Asked::default())?;
     let channels = &file.campaign.channels;
     let names = UnitNames::new(channels);
+    let result = ResultFile::of(channels, &id, None);
     let truth = Reference { label: "theory", ..Reference::truth(&made.arm) };
     let mut batch = Batch::new();
     batch.folder(out)?;
-    let bodes = bode_plots(channels, names, &id, Some(&truth));
+    let bodes = bode_plots(names, &result, Some(&truth));
     for ((_, plot), name) in bodes.iter().zip(["figure-6", "figure-7"]) {
         add(&mut batch, out, name, plot)?;
     }
-    if let Some(plot) = friction_plot(channels, names, &id) {
+    if let Some(plot) = friction_plot(names, &result) {
         add(&mut batch, out, "figure-8", &with_truth(plot, &made, &id))?;
     }
     batch.commit()?;

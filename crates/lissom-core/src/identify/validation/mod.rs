@@ -3,6 +3,7 @@
 pub(crate) mod cause;
 mod expected;
 mod kernel;
+mod log_prediction;
 mod motion_fit;
 pub(crate) mod moved_mode;
 mod residual;
@@ -14,6 +15,7 @@ mod validation_text;
 pub(super) mod zeros;
 
 pub use cause::{Cause, CauseKind};
+pub use log_prediction::{LogPrediction, predict_logs};
 pub use motion_fit::{ChannelFit, Horizon, PredictedStretch};
 pub use moved_mode::{MovedBy, MovedMode};
 pub use residual::ChannelResidual;
@@ -25,13 +27,12 @@ use thiserror::Error;
 
 use crate::identify::findings::Finding;
 use crate::identify::found_arm::FoundArm;
-use crate::identify::validation::thresholds::FITS_PERCENT;
 use crate::record::{Campaign, Run};
 use crate::replay::{MOST_MODES, TURN_MOST};
 use expected::expected;
 use motion_fit::{FollowedLog, followed, lengths_s};
 use moved_mode::moved_mode;
-use residual::channel_residual;
+use residual::channel_residuals;
 
 /// Options of a validation.
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
@@ -111,6 +112,45 @@ pub fn validate(
     campaign: &Campaign,
     options: &ValidationOptions,
 ) -> Result<Validation, ValidationError> {
+    check(found, campaign)?;
+    let all = predicted(found, campaign, None);
+    // The window of the logs used, so that both estimates compare.
+    let window_s = options.window_s.or(found.torque_used.map(|used| used.window_s));
+    let mut torque =
+        torque(found.for_torque(), campaign, &zeros(found.for_torque(), campaign), window_s);
+    // What the arm's own motion leaves is beside the log's only where it stays with it.
+    if let (Some(torque), Some(followed)) = (&mut torque, fitting(&all).map(|i| &all[i])) {
+        torque.compare(expected(found.for_torque(), campaign, followed, torque.window_s));
+    }
+    let mut predicted = match options.horizon_s {
+        Some(_) => predicted(found, campaign, options.horizon_s),
+        None => all,
+    };
+    let chosen = fitting(&predicted).unwrap_or(predicted.len().saturating_sub(1));
+    let finite = torque.as_ref().is_none_or(|t| t.relative_error.is_finite());
+    if !(finite && predicted.iter().all(FollowedLog::is_finite)) {
+        return Err(ValidationError::RunsAway);
+    }
+    if predicted.is_empty() && torque.is_none() {
+        return Err(ValidationError::NothingMoves);
+    }
+    let horizons: Vec<Horizon> = predicted.iter().map(|f| f.horizon.clone()).collect();
+    let at = (!predicted.is_empty()).then(|| predicted.swap_remove(chosen));
+    let stretches = at.as_ref().map_or(&[][..], |at| &at.stretches);
+    let residuals = channel_residuals(campaign, stretches);
+    let tip_departs = residuals.iter().skip(1).any(ChannelResidual::is_beyond_noise);
+    let moved_mode =
+        at.as_ref().filter(|_| tip_departs).and_then(|at| moved_mode(found, campaign, at));
+    let stretches = at.map_or_else(Vec::new, |at| at.stretches);
+    let findings = Vec::new();
+    let mut validation =
+        Validation { torque, horizons, chosen, stretches, residuals, moved_mode, findings };
+    validation.findings = validation_findings::findings(found, campaign, &validation);
+    Ok(validation)
+}
+
+/// Whether the arm fits the campaign's channels and can be simulated.
+fn check(found: &FoundArm, campaign: &Campaign) -> Result<(), ValidationError> {
     let arm = &found.arm;
     let tips = campaign.channels.tips.len();
     if arm.shapes.len() != tips {
@@ -126,49 +166,12 @@ pub fn validate(
             return Err(ValidationError::TooFast { rate_per_s, sample_time_s });
         }
     }
-    let all = predicted(found, campaign, None);
-    // The window of the logs used, so that both estimates compare.
-    let window_s = options.window_s.or(found.torque_used.map(|used| used.window_s));
-    let mut torque =
-        torque(found.for_torque(), campaign, &zeros(found.for_torque(), campaign), window_s);
-    // What the arm's own motion leaves is beside the log's only where it stays with it.
-    if let (Some(torque), Some(followed)) = (&mut torque, fitting(&all).map(|i| &all[i])) {
-        torque.compare(expected(found.for_torque(), campaign, followed, torque.window_s));
-    }
-    let mut predicted = match options.horizon_s {
-        Some(_) => predicted(found, campaign, options.horizon_s),
-        None => all,
-    };
-    let chosen = fitting(&predicted).unwrap_or(predicted.len().saturating_sub(1));
-    let finite = |f: &FollowedLog| f.horizon.channels.iter().all(|c| c.residual_rms.is_finite());
-    let told = torque.as_ref().is_none_or(|t| t.relative_error.is_finite());
-    if !(told && predicted.iter().all(finite)) {
-        return Err(ValidationError::RunsAway);
-    }
-    if predicted.is_empty() && torque.is_none() {
-        return Err(ValidationError::NothingMoves);
-    }
-    let horizons: Vec<Horizon> = predicted.iter().map(|f| f.horizon.clone()).collect();
-    let at = (!predicted.is_empty()).then(|| predicted.swap_remove(chosen));
-    let stretches = at.as_ref().map_or(&[][..], |at| &at.stretches);
-    let channels = if stretches.is_empty() { 0..0 } else { 0..tips + 1 };
-    let residuals: Vec<ChannelResidual> =
-        channels.map(|c| channel_residual(campaign, stretches, c)).collect();
-    let tip_departs = residuals.iter().skip(1).any(ChannelResidual::is_beyond_noise);
-    let moved_mode =
-        at.as_ref().filter(|_| tip_departs).and_then(|at| moved_mode(found, campaign, at));
-    let stretches = at.map_or_else(Vec::new, |at| at.stretches);
-    let findings = Vec::new();
-    let mut validation =
-        Validation { torque, horizons, chosen, stretches, residuals, moved_mode, findings };
-    validation.findings = validation_findings::findings(found, campaign, &validation);
-    Ok(validation)
+    Ok(())
 }
 
 /// The longest time over which every channel fits.
 fn fitting(predicted: &[FollowedLog]) -> Option<usize> {
-    let fits = |f: &FollowedLog| f.horizon.channels.iter().all(|c| c.fit_percent >= FITS_PERCENT);
-    predicted.iter().position(fits)
+    predicted.iter().position(FollowedLog::fits)
 }
 
 /// The motion over ever shorter times, or over the one asked for; none of an arm whose modes are not known.

@@ -1,6 +1,7 @@
 //! Simulation under the logged command, compared with the logged motion.
 
 use crate::identify::methods::output_error::{Masks, follow, masks};
+use crate::identify::validation::thresholds::FITS_PERCENT;
 use crate::record::{Campaign, Run};
 use crate::replay::{ModalArm, Window, predict};
 
@@ -77,24 +78,73 @@ pub(super) fn followed(
     length_s: f64,
     shorter: &[Window],
 ) -> Option<FollowedLog> {
-    let windows = follow(arm, campaign, length_s, shorter);
-    let stretches: Vec<PredictedStretch> = windows
-        .iter()
-        .filter_map(|w| {
+    FollowedLog::of(arm, campaign, length_s, follow(arm, campaign, length_s, shorter))
+}
+
+/// The motion over the longest time over which every channel fits, otherwise over the shortest time. Longer times begin
+/// where shorter ones have come to, but only the times from the longest down to the chosen one are predicted and compared.
+///
+/// `None` where no stretch can be begun.
+pub(super) fn longest_fitting(arm: &ModalArm, campaign: &Campaign) -> Option<FollowedLog> {
+    let mut begun: Vec<(f64, Vec<Window>)> = Vec::new();
+    for length_s in lengths_s(campaign, None).into_iter().rev() {
+        let shorter = begun.last().map_or(&[][..], |(_, windows)| windows);
+        let windows = follow(arm, campaign, length_s, shorter);
+        if !windows.is_empty() {
+            begun.push((length_s, windows));
+        }
+    }
+    let mut shortest = None;
+    for (length_s, windows) in begun.into_iter().rev() {
+        let followed = FollowedLog::of(arm, campaign, length_s, windows);
+        if followed.as_ref().is_some_and(FollowedLog::fits) {
+            return followed;
+        }
+        shortest = followed.or(shortest);
+    }
+    shortest
+}
+
+impl FollowedLog {
+    fn of(
+        arm: &ModalArm,
+        campaign: &Campaign,
+        length_s: f64,
+        windows: Vec<Window>,
+    ) -> Option<Self> {
+        let stretch = |w: &Window| {
             let channels = predict(arm, campaign, w)?.channels;
             Some(PredictedStretch { run: w.run, first: *w.samples.start(), channels })
-        })
-        .collect();
-    if stretches.is_empty() {
-        return None;
+        };
+        let stretches: Vec<PredictedStretch> = windows.iter().filter_map(stretch).collect();
+        if stretches.is_empty() {
+            return None;
+        }
+        let masks = masks(campaign);
+        let channels =
+            (0..=campaign.channels.tips.len()).map(|c| fit(campaign, &masks, &stretches, c));
+        let whole_runs = campaign
+            .runs
+            .iter()
+            .all(|r| r.len() as f64 * r.sample_time_s() <= length_s * (1.0 + 1e-9));
+        let horizon = Horizon {
+            length_s,
+            whole_runs,
+            windows: stretches.len(),
+            channels: channels.collect(),
+        };
+        Some(Self { horizon, windows, stretches })
     }
-    let masks = masks(campaign);
-    let channels = (0..=campaign.channels.tips.len()).map(|c| fit(campaign, &masks, &stretches, c));
-    let whole_runs =
-        campaign.runs.iter().all(|r| r.len() as f64 * r.sample_time_s() <= length_s * (1.0 + 1e-9));
-    let horizon =
-        Horizon { length_s, whole_runs, windows: stretches.len(), channels: channels.collect() };
-    Some(FollowedLog { horizon, windows, stretches })
+
+    /// Whether every channel fits.
+    pub(super) fn fits(&self) -> bool {
+        self.horizon.channels.iter().all(|c| c.fit_percent >= FITS_PERCENT)
+    }
+
+    /// Whether the predicted motion is finite.
+    pub(super) fn is_finite(&self) -> bool {
+        self.horizon.channels.iter().all(|c| c.residual_rms.is_finite())
+    }
 }
 
 /// The samples of a channel that a stretch predicts.

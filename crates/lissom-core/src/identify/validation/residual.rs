@@ -1,5 +1,6 @@
 //! Tests whether a residual is white, and whether it is correlated with the command.
 
+use rayon::prelude::*;
 use statrs::distribution::{ChiSquared, ContinuousCDF as _};
 
 use crate::identify::methods::output_error::{Masks, masks};
@@ -72,8 +73,18 @@ impl ChannelResidual {
     }
 }
 
+/// Tests every channel over all stretches; empty without a stretch.
+pub(super) fn channel_residuals(
+    campaign: &Campaign,
+    stretches: &[PredictedStretch],
+) -> Vec<ChannelResidual> {
+    let channels = if stretches.is_empty() { 0 } else { campaign.channels.tips.len() + 1 };
+    let channels = (0..channels).into_par_iter().with_max_len(1);
+    channels.map(|channel| channel_residual(campaign, stretches, channel)).collect()
+}
+
 /// Tests channel `channel` over all stretches.
-pub(super) fn channel_residual(
+fn channel_residual(
     campaign: &Campaign,
     stretches: &[PredictedStretch],
     channel: usize,

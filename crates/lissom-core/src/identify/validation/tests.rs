@@ -325,3 +325,18 @@ fn a_window_longer_than_the_log_has_no_torque() {
         assert!(v.torque.is_none(), "{window_s}");
     }
 }
+
+#[test]
+fn a_prediction_for_plots_has_the_values_of_the_validation() {
+    let mut arm = rigid();
+    arm.coulomb_nm *= 1.5;
+    for log in [log_of(&rigid()), log_of(&arm)] {
+        let judged = validate(&found(rigid()), &log, &ValidationOptions::default()).unwrap();
+        let shown = predict_logs(&found(rigid()), &log).unwrap();
+        assert_eq!(shown.stretches, judged.stretches);
+        assert_eq!(shown.residuals, judged.residuals);
+        let [shown, judged] = [shown.torque.unwrap(), judged.torque.unwrap()];
+        // Where nothing is predicted both are NaN.
+        assert_eq!(format!("{:?}", shown.runs), format!("{:?}", judged.runs));
+    }
+}

@@ -1,5 +1,7 @@
 //! The motion of a given arm in runs from which it was not identified.
 
+use rayon::prelude::*;
+
 use crate::identify::interrupt::Interrupt;
 use crate::identify::methods::output_error::engine::budget::Budget;
 use crate::identify::methods::output_error::engine::coordinates::Body;
@@ -42,7 +44,8 @@ pub(crate) fn follow(
         let point = problem.at(Body::free(arm.clone()), vec![window]);
         problem.search(point, LAST_STEPS_MOST).0.windows
     };
-    widen(campaign, arm, shorter, length_s).into_iter().flat_map(nearest).collect()
+    let begun = widen(campaign, arm, shorter, length_s);
+    begun.into_par_iter().with_max_len(1).flat_map_iter(nearest).collect()
 }
 
 /// Gives no weight to a channel without noise: it does not move.
