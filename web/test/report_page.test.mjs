@@ -98,7 +98,7 @@ test("figures obey the keyboard, hide series, and have tables and files", async 
   await series.click();
   assert.equal(await series.getAttribute("aria-pressed"), "false");
   await bode.getByText("Table", { exact: true }).click();
-  assert.ok((await bode.locator("table").first().locator("tbody tr").count()) > 5);
+  await bode.locator("table").first().locator("tbody tr").nth(5).waitFor();
   const saved = async (name) => {
     const [download] = await Promise.all([page.waitForEvent("download"), bode.getByRole("button", { name }).click()]);
     return readFileSync(await download.path(), "utf8");

@@ -175,7 +175,7 @@ impl Page {
         let data = figure.data(POINTS_MOST).map_or_else(|_| String::new(), |data| data_html(&data));
         self.has_data |= !data.is_empty();
         self.put(&format!(
-            "<figure><div class=\"wide plot\">{picture}</div>{data}<figcaption>{}</figcaption></figure>",
+            "<figure><div class=\"wide plot\" tabindex=\"0\" role=\"group\" aria-label=\"Plot\">{picture}</div>{data}<figcaption>{}</figcaption></figure>",
             escape(caption)
         ))
     }
@@ -201,7 +201,7 @@ impl Page {
         self.has_data |= !data.is_empty();
         let picture = picture(first);
         self.put(&format!(
-            "<figure><div class=\"wide plot\">{picture}</div>{data}<figcaption>{}</figcaption></figure>",
+            "<figure><div class=\"wide plot\" tabindex=\"0\" role=\"group\" aria-label=\"Plot\">{picture}</div>{data}<figcaption>{}</figcaption></figure>",
             escape(caption)
         ))
     }
