@@ -120,6 +120,7 @@ test("a list chooses the run of a gallery", async () => {
   assert.ok(names.length > 1);
   await select.selectOption(names[1]);
   await motion.getByText(`${names[1]}: measured and predicted`).waitFor();
+  await motion.locator(".uplot").nth(4).waitFor();
   assert.equal(await motion.locator(".uplot").count(), 5);
   assert.deepEqual(said, []);
   await close();

@@ -46,6 +46,7 @@ export class Identify {
   }
 
   private async start(): Promise<void> {
+    await this.store.settled();
     const started = await this.store.during("", async () => {
       this.job = await send<Job>("POST", "/api/job", { revision: this.store.state.revision });
     });

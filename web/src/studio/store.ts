@@ -6,6 +6,7 @@ import type { Problem, Setup, State } from "./types";
 export class Store {
   private known: State | null = null;
   private readonly listeners: (() => void)[] = [];
+  private changes: Promise<void> = Promise.resolve();
   problem: Problem | null = null;
   busy = "";
 
@@ -59,8 +60,18 @@ export class Store {
     return done;
   }
 
-  /** Changes what is said about the logs. */
-  async say(change: (setup: Setup) => void): Promise<void> {
+  /** Changes what is said about the logs, after the changes that are on their way. */
+  say(change: (setup: Setup) => void): Promise<void> {
+    this.changes = this.changes.then(() => this.sayNow(change));
+    return this.changes;
+  }
+
+  /** Waits for the changes that are on their way. */
+  settled(): Promise<void> {
+    return this.changes;
+  }
+
+  private async sayNow(change: (setup: Setup) => void): Promise<void> {
     const setup = structuredClone(this.state.setup);
     change(setup);
     await this.during("", async () => {
