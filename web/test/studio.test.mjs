@@ -141,6 +141,23 @@ test("a search is stopped with the best so far, and two results are compared", a
   assert.deepEqual(said, []);
 });
 
+test("the next experiment is planned and tried on the virtual rig", async (t) => {
+  const server = await studio(chromium, t);
+  const { page, said } = await server.page();
+  await page.locator("#sample").click();
+  await identified(page);
+  await page.locator("#tab-Plan").click();
+  await page.waitForFunction(() => document.querySelector("#arm")?.value.includes("[rig]"));
+  await page.locator("#precision").fill("2%");
+  await page.locator("#plan").click();
+  await page.locator("#expected").waitFor({ timeout: 60_000 });
+  assert.match(await page.locator("#expected").textContent(), /Coulomb friction/);
+  await page.locator("#try").click();
+  await page.locator(".report h1", { hasText: "virtual rig" }).waitFor({ timeout: 60_000 });
+  await page.getByText("truth", { exact: false }).first().waitFor();
+  assert.deepEqual(said, []);
+});
+
 test("a stretch is chosen by zooming and left out; the state survives a reload", async (t) => {
   const server = await studio(chromium, t);
   const { page, said } = await server.page();
@@ -233,6 +250,9 @@ for (const colorScheme of ["light", "dark"]) {
       await page.locator("#tab-Compare").click();
       await page.locator("#comparison").waitFor();
       await check("compare");
+      await page.locator("#tab-Plan").click();
+      await page.locator("#arm").waitFor();
+      await check("plan");
     });
   }
 }

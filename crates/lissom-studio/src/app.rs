@@ -8,6 +8,7 @@ use lissom_formats::ReadOptions;
 use crate::access::Access;
 use crate::job::Job;
 use crate::log_cache::{CachedLog, LogCache};
+use crate::planning::Planned;
 use crate::problem::Problem;
 use crate::session::{LogEntry, Session};
 use crate::state_folder::StateFolder;
@@ -23,6 +24,8 @@ pub(crate) struct App {
     session: Mutex<Session>,
     pub(crate) cache: LogCache,
     job: Mutex<Option<Arc<Job>>>,
+    /// The plan that was made last.
+    planned: Mutex<Option<Planned>>,
     pub(crate) port: u16,
     /// Most bytes of all uploads together.
     pub(crate) quota_bytes: u64,
@@ -36,6 +39,7 @@ impl App {
             session: Mutex::new(session),
             cache: LogCache::default(),
             job: Mutex::new(None),
+            planned: Mutex::new(None),
             port,
             quota_bytes,
         }
@@ -97,6 +101,16 @@ impl App {
         }
         *running = Some(Arc::clone(job));
         Ok(())
+    }
+
+    /// Keeps a plan.
+    pub(crate) fn keep_plan(&self, planned: Planned) {
+        *self.planned.lock().unwrap_or_else(PoisonError::into_inner) = Some(planned);
+    }
+
+    /// The plan that was made last.
+    pub(crate) fn planned(&self) -> Option<Planned> {
+        self.planned.lock().unwrap_or_else(PoisonError::into_inner).clone()
     }
 
     /// Where a file of the session is. Files of the folder that are not plain files are refused: it has no links.

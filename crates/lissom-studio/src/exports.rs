@@ -16,10 +16,11 @@ pub(crate) struct Export {
 }
 
 /// Names of the files that a result gives.
-pub(crate) const FILES: [&str; 9] = [
+pub(crate) const FILES: [&str; 10] = [
     "report.html",
     "result.json",
     "campaign.toml",
+    "arm.toml",
     "arm.py",
     "arm.m",
     "arm.mat",
@@ -36,6 +37,13 @@ pub(crate) fn export(folder: &Path, name: &str) -> Result<Export, Problem> {
         "report.html" => ("text/html; charset=utf-8", fs::read(folder.join(name))?),
         "result.json" => ("application/json", fs::read(folder.join(name))?),
         "campaign.toml" => ("text/plain; charset=utf-8", fs::read(folder.join(name))?),
+        "arm.toml" => {
+            let text = fs::read(folder.join(name)).map_err(|_| {
+                let error = "this result has no arm that can be simulated";
+                Problem::input(error, Some("plan with an arm.toml of known dimensions".to_owned()))
+            })?;
+            ("text/plain; charset=utf-8", text)
+        }
         "arm.py" => ("text/plain; charset=utf-8", python_script(&model()?).into_bytes()),
         "arm.m" => ("text/plain; charset=utf-8", matlab_script(&model()?).into_bytes()),
         "arm.mat" => ("application/octet-stream", mat_file(&model()?)),

@@ -1,4 +1,4 @@
-//! Identifies the logs of the session in a thread, and keeps the result.
+//! Identifies logs in a thread, and keeps the result: those of the session, or those of a virtual rig.
 
 use std::fs;
 use std::panic::{AssertUnwindSafe, catch_unwind};
@@ -9,6 +9,7 @@ use std::time::{SystemTime, UNIX_EPOCH};
 
 use lissom::DescribedLogs;
 use lissom::identify::{Effort, Identified, Interrupt, Options, SearchEnd, Severity, identify};
+use lissom_io::campaign::{AnalysisOptions, DriveConstants};
 use lissom_io::inspect::{Description, Inspection};
 use lissom_io::{CampaignFile, CampaignReader, ResultFile, UnitNames, write};
 use lissom_text::with_uncertainty;
@@ -18,6 +19,7 @@ use lissom_views::{ProgramHints, Reference, own_logs, parameter_rows};
 
 use crate::app::Shared;
 use crate::job::{FirstRow, Job};
+use crate::planning::Planned;
 use crate::problem::Problem;
 use crate::session::{ResultEntry, Session};
 use crate::state_folder::{create_private, write_private};
@@ -36,6 +38,17 @@ enum Logs {
     },
     /// A campaign.toml; confined to its folder if the browser sent it.
     Campaign { path: PathBuf, confined: bool },
+    /// Planned runs, simulated; their plan.toml is kept in place of a campaign.toml.
+    Virtual(Box<Planned>),
+}
+
+/// Logs that were read.
+struct Read {
+    file: CampaignFile,
+    /// The text of the campaign.toml.
+    campaign: String,
+    /// The simulated arm.
+    truth: Option<Reference>,
 }
 
 /// The files of a result.
@@ -44,12 +57,26 @@ struct Made {
     result: String,
     campaign: String,
     page: String,
+    arm: Option<String>,
 }
 
 /// Starts the identification of the session as it is.
 pub(crate) fn start(app: &Shared, session: Session) -> Result<Arc<Job>, Problem> {
-    let effort = Effort::from(session.setup.effort);
     let logs = logs(app, &session)?;
+    start_with(app, session, logs)
+}
+
+/// Starts the simulation of planned runs, and the identification of their logs.
+pub(crate) fn start_virtual(
+    app: &Shared,
+    session: Session,
+    planned: Planned,
+) -> Result<Arc<Job>, Problem> {
+    start_with(app, session, Logs::Virtual(Box::new(planned)))
+}
+
+fn start_with(app: &Shared, session: Session, logs: Logs) -> Result<Arc<Job>, Problem> {
+    let effort = Effort::from(session.setup.effort);
     let job = Arc::new(Job::new(effort.most_evaluations()));
     app.begin(&job)?;
     let (app, running) = (Arc::clone(app), Arc::clone(&job));
@@ -78,25 +105,37 @@ fn logs(app: &Shared, session: &Session) -> Result<Logs, Problem> {
     Ok(Logs::Described { first, folder: app.folder.logs(), files, said: Box::new(said) })
 }
 
-/// Reads the logs; also returns the text of their campaign.toml.
-fn read(logs: Logs) -> Result<(CampaignFile, String), Problem> {
+/// Reads the logs, or makes them.
+fn read(logs: Logs, job: &Job) -> Result<Read, Problem> {
     match logs {
         Logs::Described { first, folder, files, said } => {
             let described = DescribedLogs::in_folder(*first, &folder, &files, &said)?;
             let file = described.read()?;
-            Ok((file, described.draft.commented()))
+            Ok(Read { file, campaign: described.draft.commented(), truth: None })
         }
         Logs::Campaign { path, confined } => {
             let reader = CampaignReader::of_file(&path);
             let reader = if confined { reader.confined() } else { reader };
-            Ok((reader.read()?, fs::read_to_string(&path)?))
+            Ok(Read { file: reader.read()?, campaign: fs::read_to_string(&path)?, truth: None })
+        }
+        Logs::Virtual(planned) => {
+            job.step("simulating the planned runs");
+            let campaign = planned.simulated()?;
+            let (known, analysis) = (DriveConstants::default(), AnalysisOptions::default());
+            let truth = Some(Reference::truth(&planned.rig.arm));
+            Ok(Read {
+                file: CampaignFile { campaign, known, analysis },
+                campaign: planned.text,
+                truth,
+            })
         }
     }
 }
 
 /// Identifies, and makes the texts of the files.
 fn made(session: &Session, logs: Logs, job: &Job) -> Result<Made, Problem> {
-    let (file, campaign) = read(logs)?;
+    let is_virtual = matches!(logs, Logs::Virtual(_));
+    let Read { file, campaign, truth } = read(logs, job)?;
     let effort = Effort::from(session.setup.effort);
     let found = |effort, interrupt: Interrupt, stage: &dyn Fn(lissom::identify::Stage)| {
         let options = Options { effort, interrupt, ..file.options() };
@@ -115,10 +154,11 @@ fn made(session: &Session, logs: Logs, job: &Job) -> Result<Made, Problem> {
     }
     let id = found(effort, job.interrupt.clone(), &|stage| job.stage(stage))?;
     job.step("report");
-    let reference = Reference::of(&file)?;
-    let geometry = checked(&id, reference.as_ref());
+    let described = Reference::of(&file)?;
+    let geometry = checked(&id, described.as_ref());
+    let reference = truth.or(described);
     let result = ResultFile::of(&file.campaign.channels, &id, geometry.as_ref());
-    let name = name(session);
+    let name = if is_virtual { "virtual rig".to_owned() } else { name(session) };
     let own = own_logs(&file.campaign, id.arm.as_ref());
     let content = PageContent {
         result: &result,
@@ -145,6 +185,7 @@ fn made(session: &Session, logs: Logs, job: &Job) -> Result<Made, Problem> {
             .map_err(lissom_io::Error::from)?,
         campaign,
         page: page.to_html(),
+        arm: id.arm.as_ref().and_then(|arm| write::found_arm_text(arm, &file.campaign)),
     })
 }
 
@@ -192,7 +233,8 @@ fn keep(app: &Shared, made: Made) -> Result<u64, Problem> {
         ("campaign.toml", made.campaign),
         ("report.html", made.page),
     ];
-    for (name, text) in files {
+    let arm = made.arm.map(|arm| ("arm.toml", arm));
+    for (name, text) in files.into_iter().chain(arm) {
         write_private(&folder.join(name), text.as_bytes())?;
     }
     app.amend(|session| session.results.push(ResultEntry { id, ..made.entry }))?;

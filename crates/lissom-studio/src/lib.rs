@@ -12,6 +12,7 @@
 //! | `uploads.rs` | logs that the browser sends |
 //! | `log_cache.rs`, `thinned.rs` | logs in memory, and their samples for a screen |
 //! | `job.rs`, `identification.rs` | one identification at a time, with progress |
+//! | `planning.rs` | the next experiment, planned and simulated |
 //! | `exports.rs`, `sample.rs` | files made of a result; logs to try it with |
 //! | `routes.rs` | addresses of the application, each a few lines |
 #![deny(missing_docs)]
@@ -23,6 +24,7 @@ mod identification;
 mod job;
 mod log_cache;
 mod opener;
+mod planning;
 mod problem;
 mod routes;
 mod sample;

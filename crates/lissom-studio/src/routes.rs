@@ -20,6 +20,7 @@ use crate::identification;
 use crate::job::JobView;
 use crate::log_cache::TracePoints;
 use crate::opener;
+use crate::planning::{PlanView, Wanted};
 use crate::problem::Problem;
 use crate::sample;
 use crate::session::{FileKind, LogEntry, Session};
@@ -52,6 +53,8 @@ pub(crate) fn router(app: Shared) -> Router {
         .route("/api/results/{id}/report", get(report))
         .route("/api/results/{id}/files/{name}", get(result_file))
         .route("/api/compare", get(compare))
+        .route("/api/plan", post(make_plan))
+        .route("/api/virtual", post(try_plan))
         .route_layer(middleware::from_fn_with_state(Arc::clone(&app), access::need_key));
     Router::new()
         .route("/", get(|| async { ([(CONTENT_TYPE, "text/html; charset=utf-8")], PAGE) }))
@@ -334,4 +337,22 @@ async fn compare(
     })
     .await?;
     Ok(fragment(text))
+}
+
+async fn make_plan(State(app): State<Shared>, Json(wanted): Json<Wanted>) -> Answer<PlanView> {
+    in_thread(move || {
+        let (planned, view) = wanted.planned()?;
+        app.keep_plan(planned);
+        Ok(Json(view))
+    })
+    .await
+}
+
+/// Simulates the plan that was made last: no page sends a plan, which could name files.
+async fn try_plan(State(app): State<Shared>) -> Answer<JobView> {
+    in_thread(move || {
+        let planned = app.planned().ok_or_else(|| Problem::not_found("plan"))?;
+        Ok(Json(identification::start_virtual(&app, app.session(), planned)?.view()))
+    })
+    .await
 }

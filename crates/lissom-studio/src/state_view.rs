@@ -25,7 +25,7 @@ pub(crate) struct StateView {
     job: Option<JobView>,
     results: Vec<ResultEntry>,
     /// Names of the files that a result gives.
-    files: [&'static str; 9],
+    files: [&'static str; 10],
 }
 
 /// A log, or why it cannot be read.

@@ -69,6 +69,8 @@ fn the_token_can_be_used_once_and_nothing_is_there_without_a_key() {
         ("GET", "/api/results/1/report"),
         ("GET", "/api/results/1/files/result.json"),
         ("GET", "/api/compare?results=1,2"),
+        ("POST", "/api/plan"),
+        ("POST", "/api/virtual"),
     ];
     for (method, path) in addresses {
         for headers in [

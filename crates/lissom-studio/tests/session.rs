@@ -135,6 +135,39 @@ fn stretches_are_left_out_as_the_setup_says() {
 }
 
 #[test]
+fn the_next_experiment_is_planned_and_tried_with_the_arm_that_was_found() {
+    let folder = tempdir().unwrap();
+    let client = with_sample(folder.path());
+    client.setup(|setup| setup["effort"] = json!("quick"));
+    let result = client.identify()["result"].as_u64().unwrap();
+    let arm = client.send("GET", &format!("/api/results/{result}/files/arm.toml"), b"");
+    assert_eq!(arm.status, 200, "{}", arm.body);
+    assert_eq!(client.send("POST", "/api/virtual", b"").status, 404);
+    let body = json!({ "arm": arm.body, "precision": "2%", "within": "5 min" }).to_string();
+    let plan = client.send("POST", "/api/plan", body.as_bytes()).json();
+    assert!(plan["text"].as_str().is_some_and(|text| text.contains("[[runs]]")), "{plan}");
+    let expected = plan["expected"].as_array().unwrap();
+    assert!(expected.iter().any(|row| row["reached"] == true), "{plan}");
+    assert_eq!(client.send("POST", "/api/virtual", b"").status, 200);
+    let job = client.finished();
+    let tried = job["result"].as_u64().unwrap_or_else(|| panic!("{job}"));
+    let file =
+        |id: u64| client.send("GET", &format!("/api/results/{id}/files/result.json"), b"").json();
+    let inertia = |id: u64| file(id)["drive"]["inertia_kg_m2"]["value"].as_f64().unwrap();
+    assert!(
+        (inertia(tried) / inertia(result) - 1.0).abs() < 0.05,
+        "{} {}",
+        inertia(tried),
+        inertia(result)
+    );
+    let report = client.send("GET", &format!("/api/results/{tried}/report"), b"").body;
+    assert!(report.contains("truth"), "no true values on the page");
+    let wrong = json!({ "arm": "[beam]\nrigid = 1", "precision": "", "within": "" }).to_string();
+    let refused = client.send("POST", "/api/plan", wrong.as_bytes());
+    assert!(refused.status == 422 && refused.body.contains("arm.toml"), "{}", refused.body);
+}
+
+#[test]
 fn a_bad_log_is_refused_with_its_place_and_leaves_nothing() {
     let folder = tempdir().unwrap();
     let client = with_sample(folder.path());

@@ -45,6 +45,18 @@ export class Identify {
     return select;
   }
 
+  /** Shows the progress of a job that has begun, and its result. */
+  follow(job: Job): void {
+    this.job = job;
+    if (!this.polling) void this.poll();
+  }
+
+  /** Shows the progress in another place, while it is there. */
+  renderProgressIn(place: Element | null): void {
+    if (place && this.progress.parentElement !== place) put(place, this.progress);
+    this.renderProgress();
+  }
+
   private async start(): Promise<void> {
     await this.store.settled();
     const started = await this.store.during("", async () => {
@@ -55,7 +67,7 @@ export class Identify {
 
   private async poll(): Promise<void> {
     this.polling = true;
-    this.render();
+    this.store.changed();
     while (this.job && !this.job.finished) {
       await new Promise((resolve) => setTimeout(resolve, POLL_MS));
       try {

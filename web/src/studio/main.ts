@@ -6,6 +6,7 @@ import { button, h, put } from "./dom";
 import { Files } from "./files";
 import { Identify } from "./identify";
 import { Motion } from "./motion";
+import { Plan } from "./plan";
 import { Compare, Results } from "./results";
 import { Store } from "./store";
 
@@ -27,6 +28,7 @@ const tabs: Record<string, readonly View[]> = {
   Logs: [files, new Channels(store), identify, new Motion(store)],
   Results: [results],
   Compare: [new Compare(store)],
+  Plan: [new Plan(store, identify)],
 };
 const bar = h("nav", { "aria-label": "Steps", class: "tabs" });
 const message = h("div", { role: "alert" });

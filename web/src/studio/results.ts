@@ -10,6 +10,7 @@ const FILE_WORDS: Record<string, string> = {
   "report.html": "report page",
   "result.json": "all numbers",
   "campaign.toml": "description of the logs",
+  "arm.toml": "the arm, for plans and virtual experiments",
   "arm.py": "python-control",
   "arm.m": "MATLAB script",
   "arm.mat": "MATLAB file",

@@ -122,3 +122,11 @@ export interface Trace {
   /** Number of samples of what is shown. */
   readonly samples: number;
 }
+
+export interface PlanView {
+  readonly text: string;
+  readonly time_s: number;
+  readonly runs: readonly string[];
+  readonly expected: readonly { readonly name: string; readonly expected: string; readonly wanted: string; readonly reached: boolean }[];
+  readonly notes: readonly string[];
+}

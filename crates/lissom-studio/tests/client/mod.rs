@@ -101,6 +101,11 @@ impl Client {
         let body = serde_json::json!({ "revision": self.state()["revision"] }).to_string();
         let answer = self.send("POST", "/api/job", body.as_bytes());
         assert_eq!(answer.status, 200, "{}", answer.body);
+        self.finished()
+    }
+
+    /// Waits for the end of the job.
+    pub(crate) fn finished(&self) -> Value {
         loop {
             let job = self.send("GET", "/api/job", b"").json();
             if job["finished"] == true {
