@@ -101,7 +101,7 @@ fn logs(app: &Shared, session: &Session) -> Result<Logs, Problem> {
         return Err(Problem::input("there is no log", Some("add a log first".to_owned())));
     };
     let first = Box::new(app.log(session, first)?.inspection.clone());
-    let said = session.setup.description(session, &first)?;
+    let said = session.description(&first)?;
     Ok(Logs::Described { first, folder: app.folder.logs(), files, said: Box::new(said) })
 }
 

@@ -6,7 +6,7 @@
 //!
 //! | file | task |
 //! |---|---|
-//! | `access.rs` | who may ask: one-time token, key, host and origin |
+//! | `access.rs`, `guard.rs` | who may ask: one-time token and key; host and origin |
 //! | `state_folder.rs`, `session.rs` | what is kept: plain files in a folder that only the user can read |
 //! | `setup.rs` | what the user says about the logs, as the description of a campaign |
 //! | `uploads.rs` | logs that the browser sends |
@@ -20,6 +20,7 @@
 mod access;
 mod app;
 mod exports;
+mod guard;
 mod identification;
 mod job;
 mod log_cache;

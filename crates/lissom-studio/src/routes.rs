@@ -13,9 +13,9 @@ use lissom_io::{ComparedFile, read_result};
 use lissom_views::compare_page;
 use serde::{Deserialize, Serialize};
 
-use crate::access;
 use crate::app::Shared;
 use crate::exports;
+use crate::guard;
 use crate::identification;
 use crate::job::JobView;
 use crate::log_cache::TracePoints;
@@ -55,7 +55,7 @@ pub(crate) fn router(app: Shared) -> Router {
         .route("/api/compare", get(compare))
         .route("/api/plan", post(make_plan))
         .route("/api/virtual", post(try_plan))
-        .route_layer(middleware::from_fn_with_state(Arc::clone(&app), access::need_key));
+        .route_layer(middleware::from_fn_with_state(Arc::clone(&app), guard::need_key));
     Router::new()
         .route("/", get(|| async { ([(CONTENT_TYPE, "text/html; charset=utf-8")], PAGE) }))
         .route("/studio.js", get(|| async { ([(CONTENT_TYPE, "text/javascript")], SCRIPT) }))
@@ -64,7 +64,7 @@ pub(crate) fn router(app: Shared) -> Router {
         .merge(with_key)
         .fallback(|| async { Problem::not_found("address") })
         .layer(DefaultBodyLimit::max(REQUEST_BYTES))
-        .layer(middleware::from_fn(access::guard))
+        .layer(middleware::from_fn(guard::guard))
         .with_state(app)
 }
 

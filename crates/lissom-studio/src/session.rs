@@ -2,10 +2,11 @@
 
 use std::path::PathBuf;
 
-use lissom::identify::Effort;
+use lissom_io::inspect::{Description, Inspection};
 use serde::{Deserialize, Serialize};
 
-use crate::setup::Setup;
+use crate::problem::Problem;
+use crate::setup::{EffortName, Setup};
 
 /// Number of the format of `session.json`.
 const FORMAT: u32 = 1;
@@ -76,26 +77,6 @@ pub(crate) struct ResultEntry {
     pub(crate) setup: Setup,
 }
 
-/// How far the search goes.
-#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize, Deserialize)]
-#[serde(rename_all = "kebab-case")]
-pub(crate) enum EffortName {
-    Quick,
-    #[default]
-    Normal,
-    Thorough,
-}
-
-impl From<EffortName> for Effort {
-    fn from(name: EffortName) -> Self {
-        match name {
-            EffortName::Quick => Self::Quick,
-            EffortName::Normal => Self::Normal,
-            EffortName::Thorough => Self::Thorough,
-        }
-    }
-}
-
 impl Default for Session {
     fn default() -> Self {
         let (logs, results) = (Vec::new(), Vec::new());
@@ -137,6 +118,11 @@ impl Session {
     /// The result with this number.
     pub(crate) fn result(&self, id: u64) -> Option<&ResultEntry> {
         self.results.iter().find(|result| result.id == id)
+    }
+
+    /// What is said about the logs, of which `first` is the first.
+    pub(crate) fn description(&self, first: &Inspection) -> Result<Description, Problem> {
+        self.setup.description(first, |id| Some(self.log(id)?.file()))
     }
 
     /// The campaign.toml, if there is one.

@@ -1,10 +1,12 @@
 //! What the user says about the logs, as the page has it, and as the description of a campaign.
 
+use std::path::PathBuf;
+
+use lissom::identify::Effort;
 use lissom_io::inspect::{Choice, CommandKey, Description, Inspection, LogTrim, Role};
 use serde::{Deserialize, Serialize};
 
 use crate::problem::Problem;
-use crate::session::{EffortName, Session};
 
 /// What the user says about the logs. An empty text says nothing.
 #[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
@@ -64,6 +66,26 @@ pub(crate) enum CommandKind {
     Torque,
     /// The position reference of a servo.
     Goal,
+}
+
+/// How far the search goes.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub(crate) enum EffortName {
+    Quick,
+    #[default]
+    Normal,
+    Thorough,
+}
+
+impl From<EffortName> for Effort {
+    fn from(name: EffortName) -> Self {
+        match name {
+            EffortName::Quick => Self::Quick,
+            EffortName::Normal => Self::Normal,
+            EffortName::Thorough => Self::Thorough,
+        }
+    }
 }
 
 /// What of a log is left out.
@@ -128,11 +150,11 @@ impl Setup {
         Self { tips: Pick::of_guessed_tip(log).into_iter().collect(), ..Self::default() }
     }
 
-    /// The description of a campaign of the logs that are used, of which `log` is the first.
+    /// The description of a campaign of the logs that are used, of which `log` is the first; `file` gives the path of a log.
     pub(crate) fn description(
         &self,
-        session: &Session,
         log: &Inspection,
+        file: impl Fn(u64) -> Option<PathBuf>,
     ) -> Result<Description, Problem> {
         let choice = |pick: &Option<Pick>| match pick {
             Some(pick) => pick.choice(log),
@@ -151,7 +173,7 @@ impl Setup {
         let drive =
             drive.into_iter().filter_map(|(key, value)| Some((key.to_owned(), said(value)?)));
         let trims = self.trims.iter().filter_map(|trim| {
-            let file = session.log(trim.log)?.file();
+            let file = file(trim.log)?;
             let (skip, until) = (said(&trim.skip), said(&trim.until));
             Some(LogTrim { file, skip, until, leave_out: trim.leave_out.clone() })
         });

@@ -106,7 +106,7 @@ fn campaign(app: &App, session: &Session, first: Option<&Arc<CachedLog>>) -> Cam
     }
     let Some(first) = first else { return CampaignView::default() };
     let draft = || {
-        let said = session.setup.description(session, &first.inspection)?;
+        let said = session.description(&first.inspection)?;
         let files: Vec<_> = session.used_logs().map(LogEntry::file).collect();
         CampaignDraft::new(&first.inspection, &files, &said)
             .map_err(lissom_io::Error::from)
