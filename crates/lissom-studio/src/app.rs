@@ -4,6 +4,7 @@ use std::path::PathBuf;
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 
 use lissom_formats::ReadOptions;
+use lissom_io::inspect::Inspection;
 
 use crate::access::Access;
 use crate::job::Job;
@@ -125,11 +126,24 @@ impl App {
 
     /// A log of the session, read as its setup says.
     pub(crate) fn log(&self, session: &Session, log: &LogEntry) -> Result<Arc<CachedLog>, Problem> {
-        let options = ReadOptions {
-            header_row: session.setup.header_row,
-            skip_rows: session.setup.skip_rows,
-            ..ReadOptions::default()
-        };
-        self.cache.log(log.id, &self.path(log)?, &log.name, options)
+        self.cache.log(log.id, &self.path(log)?, &log.name, options(session))
+    }
+
+    /// What is in a log of the session.
+    pub(crate) fn inspection(
+        &self,
+        session: &Session,
+        log: &LogEntry,
+    ) -> Result<Arc<Inspection>, Problem> {
+        self.cache.inspection(log.id, &self.path(log)?, &log.name, options(session))
+    }
+}
+
+/// How the logs of a session are read.
+fn options(session: &Session) -> ReadOptions {
+    ReadOptions {
+        header_row: session.setup.header_row,
+        skip_rows: session.setup.skip_rows,
+        ..ReadOptions::default()
     }
 }

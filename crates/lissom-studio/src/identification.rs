@@ -100,7 +100,7 @@ fn logs(app: &Shared, session: &Session) -> Result<Logs, Problem> {
     let Some(first) = session.used_logs().next() else {
         return Err(Problem::input("there is no log", Some("add a log first".to_owned())));
     };
-    let first = Box::new(app.log(session, first)?.inspection.clone());
+    let first = Box::new(Inspection::clone(&*app.inspection(session, first)?));
     let said = session.description(&first)?;
     Ok(Logs::Described { first, folder: app.folder.logs(), files, said: Box::new(said) })
 }

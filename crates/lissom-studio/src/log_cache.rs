@@ -16,7 +16,7 @@ const VALUES_MOST: usize = 1 << 27;
 #[derive(Debug)]
 pub(crate) struct CachedLog {
     /// What is in it, without its values.
-    pub(crate) inspection: Inspection,
+    inspection: Arc<Inspection>,
     data: LogData,
     extremes: Vec<OnceLock<Extremes>>,
     /// Whether the values of a channel increase, as stamps do.
@@ -30,9 +30,10 @@ struct Key {
     options: ReadOptions,
 }
 
-/// The logs that were read last.
+/// What is in each log, and the values of the logs that were read last.
 #[derive(Debug, Default)]
 pub(crate) struct LogCache {
+    inspections: Mutex<Vec<(Key, Arc<Inspection>)>>,
     logs: Mutex<Vec<(Key, Arc<CachedLog>)>>,
 }
 
@@ -55,6 +56,10 @@ impl LogCache {
         }
         drop(logs);
         let log = Arc::new(CachedLog::read(path, name, &options)?);
+        let mut known = self.inspections.lock().unwrap_or_else(PoisonError::into_inner);
+        known.retain(|(known, _)| known.id != id);
+        known.push((key, Arc::clone(&log.inspection)));
+        drop(known);
         let mut logs = self.logs.lock().unwrap_or_else(PoisonError::into_inner);
         logs.retain(|(known, _)| known.id != id);
         logs.push((key, Arc::clone(&log)));
@@ -66,8 +71,29 @@ impl LogCache {
         Ok(log)
     }
 
+    /// What is in a log, read if that is not known yet.
+    pub(crate) fn inspection(
+        &self,
+        id: u64,
+        path: &Path,
+        name: &str,
+        options: ReadOptions,
+    ) -> Result<Arc<Inspection>, Problem> {
+        let key = Key { id, options };
+        let known = self.inspections.lock().unwrap_or_else(PoisonError::into_inner);
+        let found = known.iter().find(|(known, _)| *known == key).map(|(_, found)| found.clone());
+        drop(known);
+        match found {
+            Some(found) => Ok(found),
+            None => Ok(Arc::clone(&self.log(id, path, name, options)?.inspection)),
+        }
+    }
+
     /// Forgets a log.
     pub(crate) fn forget(&self, id: u64) {
+        let mut known = self.inspections.lock().unwrap_or_else(PoisonError::into_inner);
+        known.retain(|(known, _)| known.id != id);
+        drop(known);
         let mut logs = self.logs.lock().unwrap_or_else(PoisonError::into_inner);
         logs.retain(|(known, _)| known.id != id);
     }
@@ -87,7 +113,7 @@ impl CachedLog {
         let channels = || data.channels.iter();
         let extremes = channels().map(|_| OnceLock::new()).collect();
         let increases = channels().map(|_| OnceLock::new()).collect();
-        Ok(Self { inspection, data, extremes, increases })
+        Ok(Self { inspection: Arc::new(inspection), data, extremes, increases })
     }
 
     fn values(&self) -> usize {
@@ -124,13 +150,15 @@ impl CachedLog {
         let label = |k: usize| {
             let channel = &self.inspection.channels[k];
             match &channel.unit {
-                Some(unit) => format!("{} ({})", channel.label(), unit.text),
-                None => channel.label(),
+                // As in `q [rad]` and `speed_rpm`.
+                Some(unit) if !channel.name.contains(&unit.text) => {
+                    format!("{} ({})", channel.label(), unit.text)
+                }
+                _ => channel.label(),
             }
         };
         let range = range.unwrap_or([f64::NEG_INFINITY, f64::INFINITY]);
         Some(TracePoints {
-            label: label(channel),
             x_label: time.map_or_else(|| "row".to_owned(), label),
             points: thinned(&x, values, known, range, pixels),
         })
@@ -140,7 +168,6 @@ impl CachedLog {
 /// The points of a channel, with names for the axes.
 #[derive(Debug, serde::Serialize)]
 pub(crate) struct TracePoints {
-    label: String,
     x_label: String,
     #[serde(flatten)]
     points: Points,

@@ -174,8 +174,8 @@ fn add_file(app: &Shared, name: String) -> Result<(), Problem> {
     let log = LogEntry { id, name, path: None, kind };
     let is_first = app.session().used_logs().next().is_none();
     let guessed = if kind == FileKind::Log {
-        let read = app.log(&app.session(), &log)?;
-        is_first.then(|| Setup::guessed(&read.inspection))
+        let read = app.inspection(&app.session(), &log)?;
+        is_first.then(|| Setup::guessed(&read))
     } else {
         None
     };

@@ -2,13 +2,12 @@
 
 use std::sync::Arc;
 
-use lissom_io::inspect::{CampaignDraft, InspectedLogEntry, InspectionFile};
+use lissom_io::inspect::{CampaignDraft, InspectedLogEntry, Inspection, InspectionFile};
 use serde::Serialize;
 
 use crate::app::App;
 use crate::exports;
 use crate::job::JobView;
-use crate::log_cache::CachedLog;
 use crate::problem::Problem;
 use crate::session::{FileKind, LogEntry, ResultEntry, Session};
 use crate::setup::Setup;
@@ -29,7 +28,7 @@ pub(crate) struct StateView {
 }
 
 /// A log, or why it cannot be read.
-type ReadLog = Result<Arc<CachedLog>, Problem>;
+type ReadLog = Result<Arc<Inspection>, Problem>;
 
 /// A file.
 #[derive(Debug, Serialize)]
@@ -62,7 +61,7 @@ impl StateView {
         let logs: Vec<(&LogEntry, Option<ReadLog>)> = session
             .logs
             .iter()
-            .map(|log| (log, is_log(log).then(|| app.log(&session, log))))
+            .map(|log| (log, is_log(log).then(|| app.inspection(&session, log))))
             .collect();
         let first = session.used_logs().next().map(|log| log.id);
         let first = logs.iter().find(|(log, _)| Some(log.id) == first);
@@ -90,11 +89,11 @@ impl StateView {
     }
 }
 
-fn inspected(log: &Arc<CachedLog>) -> Option<InspectedLogEntry> {
-    InspectionFile::of(std::slice::from_ref(&log.inspection)).logs.pop()
+fn inspected(log: &Arc<Inspection>) -> Option<InspectedLogEntry> {
+    InspectionFile::of(std::slice::from_ref(&**log)).logs.pop()
 }
 
-fn campaign(app: &App, session: &Session, first: Option<&Arc<CachedLog>>) -> CampaignView {
+fn campaign(app: &App, session: &Session, first: Option<&Arc<Inspection>>) -> CampaignView {
     if let Some(given) = session.campaign() {
         let text = app.path(given).and_then(|path| Ok(std::fs::read_to_string(path)?));
         return match text {
@@ -106,9 +105,9 @@ fn campaign(app: &App, session: &Session, first: Option<&Arc<CachedLog>>) -> Cam
     }
     let Some(first) = first else { return CampaignView::default() };
     let draft = || {
-        let said = session.description(&first.inspection)?;
+        let said = session.description(first)?;
         let files: Vec<_> = session.used_logs().map(LogEntry::file).collect();
-        CampaignDraft::new(&first.inspection, &files, &said)
+        CampaignDraft::new(first, &files, &said)
             .map_err(lissom_io::Error::from)
             .map_err(Problem::from)
     };

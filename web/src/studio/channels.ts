@@ -84,7 +84,7 @@ export class Channels {
     ];
     const add = button(
       "Add a point of the arm",
-      () => void this.store.say((to) => to.tips.push({ ...EMPTY, column: asked(firstFree(log, setup)) })),
+      () => void this.store.say((to) => to.tips.push({ ...EMPTY, column: firstFree(log, setup)?.asked ?? "" })),
       { id: "add-tip" },
     );
     return [...rows.map((row) => this.row(row, log)), h("div", { class: "row" }, add)];
@@ -95,13 +95,13 @@ export class Channels {
     const guessed = guess && log.channels.find(({ number }) => number === guess.channel);
     const none = row.role === "tip" ? "none: remove" : row.role === "speed" ? "none" : guessed ? `found: ${label(guessed)}` : "choose…";
     const channel = h("select", { id: `${row.id}-channel`, "aria-label": `${row.label}: channel` }, new Option(none, ""));
-    for (const each of log.channels) channel.append(new Option(label(each), asked(each)));
-    const picked = log.channels.find((each) => [asked(each), String(each.number)].includes(row.pick?.column ?? ""));
-    channel.value = picked ? asked(picked) : "";
+    for (const each of log.channels) channel.append(new Option(label(each), each.asked));
+    const picked = log.channels.find((each) => [each.asked, String(each.number)].includes(row.pick?.column ?? ""));
+    channel.value = picked ? picked.asked : "";
     channel.addEventListener("change", () => {
-      const chosen = log.channels.find((each) => asked(each) === channel.value);
+      const chosen = log.channels.find((each) => each.asked === channel.value);
       void this.store.say((setup) => {
-        row.set(setup, chosen ? { ...EMPTY, column: asked(chosen), unit: chosen.unit ?? "" } : null);
+        row.set(setup, chosen ? { ...EMPTY, column: chosen.asked, unit: chosen.unit ?? "" } : null);
       });
     });
     const shown = picked ?? (row.role === "speed" ? undefined : guessed);
@@ -148,7 +148,7 @@ export class Channels {
       void this.store.say((setup) => {
         const guess = log.roles.find(({ role }) => role === kind)?.channel;
         const channel = log.channels.find(({ number }) => number === guess) ?? log.channels[0];
-        const now = setup.command?.channel ?? { ...EMPTY, column: channel ? asked(channel) : "" };
+        const now = setup.command?.channel ?? { ...EMPTY, column: channel?.asked ?? "" };
         setup.command = { kind: chosen, channel: { ...now, unit: UNITS[chosen]?.[0] ?? "" } };
       });
     });
@@ -217,7 +217,7 @@ export class Channels {
       return h("div", { class: "field" }, h("label", { for: key }, name), input);
     };
     const run = h("select", { id: "run" }, new Option("none", ""));
-    for (const channel of log.channels) run.append(new Option(label(channel), asked(channel)));
+    for (const channel of log.channels) run.append(new Option(label(channel), channel.asked));
     run.value = setup.run;
     run.addEventListener("change", () => void this.store.say((to) => (to.run = run.value)));
     const labels = h("div", { class: "field" }, h("label", { for: "run" }, "Column that tells runs apart"), run);
@@ -234,7 +234,7 @@ function text(id: string, name: string, value: string, example: string, set: (va
 
 /** The pick of a row, or the one that is found. */
 function pickOf(row: Row, channel: Channel | undefined): Pick {
-  return row.pick ?? { ...EMPTY, column: channel ? asked(channel) : "", unit: channel?.unit ?? "" };
+  return row.pick ?? { ...EMPTY, column: channel?.asked ?? "", unit: channel?.unit ?? "" };
 }
 
 /** A motor that is measured by its speed says so. */
@@ -250,15 +250,10 @@ function guessedKind(log: InspectedLog): CommandKind {
 function firstFree(log: InspectedLog, setup: Setup): Channel | undefined {
   const taken = [setup.time, setup.motor, setup.command?.channel, ...setup.tips].map((pick) => pick?.column);
   const roles = log.roles.map(({ channel }) => channel);
-  return log.channels.find((channel) => !taken.includes(asked(channel)) && !roles.includes(channel.number)) ?? log.channels[0];
+  return log.channels.find((channel) => !taken.includes(channel.asked) && !roles.includes(channel.number)) ?? log.channels[0];
 }
 
 export function label(channel: Channel): string {
   const name = channel.name || `column ${channel.number}`;
   return channel.unit && !name.includes(channel.unit) ? `${name} [${channel.unit}]` : name;
-}
-
-/** How a channel is named to the server. */
-export function asked(channel: Channel | undefined): string {
-  return channel ? channel.name || String(channel.number) : "";
 }

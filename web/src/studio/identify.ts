@@ -51,9 +51,11 @@ export class Identify {
     if (!this.polling) void this.poll();
   }
 
-  /** Shows the progress in another place, while it is there. */
-  renderProgressIn(place: Element | null): void {
-    if (place && this.progress.parentElement !== place) put(place, this.progress);
+  /** Shows the progress of what runs, or why it failed, in another place. */
+  renderProgressIn(place: Element): void {
+    const shown = this.job !== null && (!this.job.finished || this.job.problem !== null);
+    if (!shown) put(place);
+    else if (this.progress.parentElement !== place) put(place, this.progress);
     this.renderProgress();
   }
 

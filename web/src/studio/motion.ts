@@ -5,7 +5,7 @@ import type { AxisData, FigureData, RegionData, TraceData } from "../figure_data
 import type { Range } from "../range";
 import { UnitChoice } from "../units";
 import { get } from "./api";
-import { asked, label } from "./channels";
+import { label } from "./channels";
 import { button, h, put, seconds } from "./dom";
 import type { Store } from "./store";
 import type { Channel, InspectedLog, LogView, Setup, Trace, Trim } from "./types";
@@ -65,7 +65,7 @@ export class Motion {
     const { setup } = this.store.state;
     const of = (pick: { column: string } | null | undefined, role: string) => {
       const guess = log.roles.find((known) => known.role === role)?.channel;
-      return log.channels.find((each) => (pick?.column ? [asked(each), String(each.number)].includes(pick.column) : each.number === guess));
+      return log.channels.find((each) => (pick?.column ? [each.asked, String(each.number)].includes(pick.column) : each.number === guess));
     };
     const input = of(setup.command?.channel, "current") ?? of(null, "torque") ?? of(null, "voltage");
     const all = [of(setup.motor, "motor"), input, ...setup.tips.map((tip) => of(tip, "none"))];
@@ -77,7 +77,7 @@ export class Motion {
   private async draw(): Promise<void> {
     const main = this.main();
     if (!main?.log) return;
-    this.channels = this.shown(main.log).map(asked);
+    this.channels = this.shown(main.log).map((channel) => channel.asked);
     const { setup } = this.store.state;
     const trims = JSON.stringify(setup.trims.filter((trim) => this.drawn.includes(trim.log)));
     const key = JSON.stringify([this.drawn, this.channels, trims, setup.header_row, setup.skip_rows]);
@@ -105,7 +105,8 @@ export class Motion {
       this.channels.map(async (name) => {
         const traces = await Promise.all(logs.map((log, k) => this.trace(log, name, range, pixels, k)));
         const known = traces.filter((trace) => trace !== null);
-        return { label: known[0]?.[0].label ?? name, x: known[0]?.[0].x_label ?? "", traces: known.map(([, trace]) => trace) };
+        const shown = main?.log?.channels.find((each) => each.asked === name);
+        return { label: shown ? label(shown) : name, x: known[0]?.[0].x_label ?? "", traces: known.map(([, trace]) => trace) };
       }),
     );
     const regions = main ? this.regions(main) : [];
@@ -119,7 +120,7 @@ export class Motion {
   }
 
   private async trace(log: LogView, name: string, range: Range | null, pixels: number, k: number): Promise<[Trace, TraceData] | null> {
-    const channel = log.log?.channels.find((each) => asked(each) === name);
+    const channel = log.log?.channels.find((each) => each.asked === name);
     if (!channel) return null;
     const start = this.starts.get(log.id) ?? 0;
     const part = range ? `&from=${range[0] + start}&to=${range[1] + start}` : "";

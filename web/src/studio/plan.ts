@@ -14,6 +14,7 @@ export class Plan {
   private readonly within = h("input", { id: "within", type: "text", value: "5 min" });
   private chosen = 0;
   private key = "";
+  private readonly tried = h("div", { "aria-live": "polite" });
   private plan: PlanView | null = null;
 
   constructor(
@@ -36,7 +37,7 @@ export class Plan {
       this.chosen = result.id;
       this.build();
     }
-    this.identify.renderProgressIn(this.element.querySelector("#tried"));
+    this.identify.renderProgressIn(this.tried);
   }
 
   private build(): void {
@@ -59,7 +60,7 @@ export class Plan {
       h("div", { class: "form" }, field("Standard error of each parameter", this.precision), field("Time of all runs", this.within)),
       h("div", { class: "row" }, button("Plan", () => void this.make(), { id: "plan", class: "main" })),
       this.place,
-      h("div", { id: "tried", "aria-live": "polite" }),
+      this.tried,
     );
     this.renderPlan();
   }

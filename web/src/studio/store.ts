@@ -28,6 +28,12 @@ export class Store {
   }
 
   take(state: State): void {
+    for (const channels of state.logs.map(({ log }) => log?.channels ?? [])) {
+      for (const channel of channels) {
+        const isOnly = channel.name !== "" && channels.every((other) => other === channel || other.name !== channel.name);
+        channel.asked = isOnly ? channel.name : String(channel.number);
+      }
+    }
     this.known = state;
   }
 

@@ -6,6 +6,8 @@ export interface Problem {
 }
 
 export interface Channel {
+  /** How it is named to the server: by its name if no other one has it. */
+  asked: string;
   readonly number: number;
   readonly name: string;
   readonly unit: string | null;
@@ -115,7 +117,6 @@ export interface State {
 }
 
 export interface Trace {
-  readonly label: string;
   readonly x_label: string;
   readonly x: readonly number[];
   readonly y: readonly (number | null)[];
