@@ -141,7 +141,7 @@ fn a_key_is_unknown() {
     );
     Bench::adding("velocity = 3\n").refuses(
         "error: campaign.toml, line 12: `runs[1].velocity` is not a known key\n\
-         hint: the known keys are `file`, `name`, `omega_rad_s`, `frequency`, `skip`, `motor_file`, `tip_files`",
+         hint: the known keys are `file`, `name`, `omega_rad_s`, `frequency`, `skip`, `until`, `leave_out`, `motor_file`, `tip_files`",
     );
 }
 
