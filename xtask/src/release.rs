@@ -8,7 +8,7 @@ use crate::step::{Failure, ask, cargo, run};
 const STATIC_TARGET: &str = "x86_64-unknown-linux-musl";
 
 /// The published crates, each after those that it depends on.
-const CRATES: [&str; 9] = [
+const CRATES: [&str; 10] = [
     "lissom-text",
     "lissom-core",
     "lissom-formats",
@@ -17,6 +17,7 @@ const CRATES: [&str; 9] = [
     "lissom",
     "lissom-fleet",
     "lissom-views",
+    "lissom-studio",
     "lissom-cli",
 ];
 

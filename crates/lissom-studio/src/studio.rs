@@ -5,6 +5,7 @@ use std::net::{Ipv4Addr, TcpListener};
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
+use etcetera::BaseStrategy as _;
 use sha2::{Digest as _, Sha256};
 
 use crate::access::hex;
@@ -121,7 +122,8 @@ fn given(logs: &[PathBuf]) -> Result<Vec<(String, PathBuf)>, StudioError> {
 
 /// The folder of the state for these logs: the same logs find their state again.
 fn own_folder(logs: &[(String, PathBuf)]) -> Result<PathBuf, StudioError> {
-    let all = dirs::state_dir().or_else(dirs::data_local_dir).ok_or(StudioError::NoFolder)?;
+    let places = etcetera::choose_base_strategy().map_err(|_| StudioError::NoFolder)?;
+    let all = places.state_dir().unwrap_or_else(|| places.data_dir());
     let all = all.join("lissom").join("studio");
     fs::create_dir_all(&all)
         .map_err(|source| StudioError::Folder { folder: all.clone(), source })?;
