@@ -28,6 +28,7 @@ result = lissom.identify(lissom.Campaign(logs, torque_constant='0.2 N*m/A', **si
 assert abs(result['friction.coulomb_nm'] - 0.02) < 1e-3, result
 command = sys.executable.replace('python.exe', 'Scripts/lissom.exe') if sys.platform == 'win32' else sys.prefix + '/bin/lissom'
 print(subprocess.run([command, '--version'], check=True, capture_output=True, text=True).stdout.strip())
+subprocess.run([command, 'help', 'studio'], check=True, capture_output=True)
 assert not {'pandas', 'matplotlib', 'control'} & set(sys.modules)
 ";
 
