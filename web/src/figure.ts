@@ -54,6 +54,8 @@ export class Figure {
     choice: UnitChoice,
     picture: Element | null,
     private readonly refine: Refine | null = null,
+    /** The part that is shown at first; all if absent. */
+    private first: Range | null = null,
   ) {
     [this.data, this.choice] = [data, choice];
     this.legend = new Legend(entries(data), () => this.restore());
@@ -196,7 +198,9 @@ export class Figure {
     // Points that are asked for later are those of a part.
     if (!this.refine || !this.knowsFull) this.full = x.range ?? padded(all, this.log, lines && !this.log ? 0 : 0.04);
     this.knowsFull = true;
-    this.shown = this.whole(part);
+    this.shown = this.first ? this.within(this.first) : this.whole(part);
+    if (this.first) this.refineSoon();
+    this.first = null;
     const last = this.views.length - 1;
     this.plots = this.views.map((_, k) => this.plot(k, k === last));
   }
@@ -278,14 +282,19 @@ export class Figure {
   }
 
   /** Shows a part of the horizontal axis in all panels. */
-  show(range: Range): void {
+  private show(range: Range): void {
     const [low, high] = this.full;
     const span = this.log ? Math.log10(high / low) : high - low;
     const wanted = this.log ? Math.log10(range[1] / range[0]) : range[1] - range[0];
     if (!(wanted > ZOOM_MOST * span)) return;
-    this.shown = [Math.max(range[0], low), Math.min(range[1], high)];
+    this.shown = this.within(range);
     this.fit();
     this.refineSoon();
+  }
+
+  /** A range within the whole axis. */
+  private within(range: Range): Range {
+    return [Math.max(range[0], this.full[0]), Math.min(range[1], this.full[1])];
   }
 
   /** Fits the vertical axes to what is shown. */

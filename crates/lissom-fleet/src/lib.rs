@@ -16,7 +16,6 @@
 
 mod batch_size;
 mod checksum;
-mod effort_name;
 mod existing_rows;
 mod fleet_error;
 mod fleet_log;
@@ -31,11 +30,11 @@ mod summary;
 mod version;
 mod work;
 
-pub use effort_name::EffortName;
 pub use existing_rows::ExistingRows;
 pub use fleet_error::FleetError;
 pub use fleet_log::FleetLog;
 pub use fleet_run::{FleetRun, Progress};
+pub use lissom_io::EffortName;
 pub use lissom_io::fleet::{
     Distribution, Drift, DriftValue, FailureCount, FindingCount, FleetSummary, Histogram,
     LogOutlier, MachineOutlier, ParameterSummary,

@@ -5,10 +5,9 @@ use std::path::Path;
 use lissom::Found;
 use lissom_io::result::SeverityName;
 use lissom_io::write::json_text;
-use lissom_io::{ParameterList, ResultFile};
+use lissom_io::{EffortName, ParameterList, ResultFile};
 use serde::{Deserialize, Serialize};
 
-use crate::effort_name::EffortName;
 use crate::fleet_log::FleetLog;
 use crate::version::VERSION;
 

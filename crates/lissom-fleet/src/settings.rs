@@ -4,10 +4,9 @@ use std::path::{Component, Path, PathBuf};
 use std::time::Duration;
 
 use lissom::identify::FindingKind;
-use lissom_io::CampaignReader;
+use lissom_io::{CampaignReader, EffortName};
 use serde::{Deserialize, Serialize};
 
-use crate::effort_name::EffortName;
 use crate::fleet_error::FleetError;
 use crate::row::{FleetRow, RowOutcome};
 use crate::version::VERSION;

@@ -23,6 +23,7 @@ pub mod arm_file;
 pub mod campaign;
 pub mod comparison;
 mod config;
+mod effort_name;
 mod excerpt;
 pub mod export;
 pub mod fleet;
@@ -56,6 +57,7 @@ pub use campaign::{
 };
 pub use comparison::{DemoFile, FiguresFile};
 pub use config::{ConfigError, ConfigPlace, Rule};
+pub use effort_name::EffortName;
 pub use io_error::Error;
 pub use log::LogError;
 pub use model::{FrequencyError, Model, ModelFile, read_frequencies};

@@ -6,7 +6,7 @@ use std::time::Duration;
 
 use lissom::Identify;
 use lissom::identify::{Effort, Interrupt, Stage};
-use lissom::io::CampaignFile;
+use lissom::io::{CampaignFile, EffortName};
 use pyo3::prelude::*;
 
 use crate::campaign::NativeCampaign;
@@ -15,27 +15,18 @@ use crate::found::NativeFound;
 use crate::search::{self, Ended, Outcome, Pending};
 use crate::worker;
 
-/// Names of the stages in progress, with the share of all work before each. The search takes most of the time.
-const STAGES: [(&str, f64); 5] = [
-    ("periods and harmonics", 0.0),
-    ("regression", 0.05),
-    ("beam", 0.1),
-    ("output-error method", 0.15),
-    ("responses and models", 0.95),
+/// The stages in progress, with the share of all work before each. The search takes most of the time.
+const STAGES: [(Stage, f64); 5] = [
+    (Stage::Run(0, 1), 0.0),
+    (Stage::Regression, 0.05),
+    (Stage::Beam, 0.1),
+    (Stage::OutputError, 0.15),
+    (Stage::Responses, 0.95),
 ];
 /// Samples of motor and tips that are identified quickly within about 50 ms: a quick identification takes about 1 µs for each.
 const SHORT_SAMPLES: usize = 50_000;
 /// Index of the search in [`STAGES`].
 const SEARCH: usize = 3;
-
-fn effort_of(name: &str) -> Option<Effort> {
-    match name {
-        "quick" => Some(Effort::Quick),
-        "normal" => Some(Effort::Normal),
-        "thorough" => Some(Effort::Thorough),
-        _ => None,
-    }
-}
 
 fn index(stage: Stage) -> usize {
     match stage {
@@ -62,7 +53,7 @@ pub(crate) fn identify<'py>(
     threads: Option<usize>,
     progress: Option<Bound<'py, PyAny>>,
 ) -> PyResult<Identified> {
-    let Some(effort) = effort_of(effort) else {
+    let Some(effort) = EffortName::of(effort).map(EffortName::effort) else {
         let message = format!("effort is \"{effort}\", and not quick, normal or thorough");
         return Err(input_error(py, &message, None));
     };
@@ -87,7 +78,8 @@ pub(crate) fn identify<'py>(
     let show = |py: Python<'py>| {
         let Some(progress) = &progress else { return Ok(()) };
         let stage = reached.load(Ordering::Relaxed).min(STAGES.len() - 1);
-        let (name, begins) = STAGES[stage];
+        let (of, begins) = STAGES[stage];
+        let name = of.name();
         let most = effort.most_evaluations().max(1) as f64;
         let done = match stage {
             SEARCH => (interrupt.evaluations() as f64 / most).min(1.0),

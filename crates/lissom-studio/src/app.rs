@@ -11,7 +11,8 @@ use crate::job::Job;
 use crate::log_cache::{CachedLog, LogCache};
 use crate::planning::Planned;
 use crate::problem::Problem;
-use crate::session::{LogEntry, Session};
+use crate::session::{FileKind, LogEntry, Session};
+use crate::setup::Setup;
 use crate::state_folder::StateFolder;
 
 /// What all requests share.
@@ -86,6 +87,29 @@ impl App {
         Ok(made)
     }
 
+    /// Adds a file. Of the first log it is guessed what its channels are. A log that cannot be read is refused, or with
+    /// `even_unreadable` added, so that the page shows what is wrong.
+    pub(crate) fn add(&self, log: LogEntry, even_unreadable: bool) -> Result<(), Problem> {
+        let session = self.session();
+        let guessed = match log.kind {
+            FileKind::Log => match self.inspection(&session, &log) {
+                Ok(found) => Some(Setup::guessed(&found)),
+                Err(_) if even_unreadable => None,
+                Err(problem) => return Err(problem),
+            },
+            FileKind::Campaign | FileKind::Other => None,
+        };
+        self.amend(|session| {
+            let is_first = session.used_logs().next().is_none();
+            if let Some(guessed) = guessed.filter(|_| is_first && session.setup == Setup::default())
+            {
+                session.setup = guessed;
+            }
+            session.logs.push(log);
+            session.revision += 1;
+        })
+    }
+
     /// The job that runs, or the last one.
     pub(crate) fn job(&self) -> Option<Arc<Job>> {
         self.job.lock().unwrap_or_else(PoisonError::into_inner).clone()
@@ -127,6 +151,24 @@ impl App {
     /// A log of the session, read as its setup says.
     pub(crate) fn log(&self, session: &Session, log: &LogEntry) -> Result<Arc<CachedLog>, Problem> {
         self.cache.log(log.id, &self.path(log)?, &log.name, options(session))
+    }
+
+    /// Refuses a setup with which a log cannot be read that can be read now.
+    pub(crate) fn check_reading(&self, setup: &Setup) -> Result<(), Problem> {
+        let session = self.session();
+        let mut wanted = session.clone();
+        wanted.setup.clone_from(setup);
+        if options(&wanted) == options(&session) {
+            return Ok(());
+        }
+        for log in session.logs.iter().filter(|log| log.kind == FileKind::Log) {
+            if let Err(problem) = self.inspection(&wanted, log)
+                && self.inspection(&session, log).is_ok()
+            {
+                return Err(problem);
+            }
+        }
+        Ok(())
     }
 
     /// What is in a log of the session.

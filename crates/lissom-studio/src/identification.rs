@@ -8,7 +8,7 @@ use std::thread;
 use std::time::{SystemTime, UNIX_EPOCH};
 
 use lissom::DescribedLogs;
-use lissom::identify::{Effort, Identified, Interrupt, Options, SearchEnd, Severity, identify};
+use lissom::identify::{Effort, Identified, Interrupt, Options, Severity, Stage, identify};
 use lissom_io::campaign::{AnalysisOptions, DriveConstants};
 use lissom_io::inspect::{Description, Inspection};
 use lissom_io::{CampaignFile, CampaignReader, ResultFile, UnitNames, write};
@@ -22,10 +22,7 @@ use crate::job::{FirstRow, Job};
 use crate::planning::Planned;
 use crate::problem::Problem;
 use crate::session::{ResultEntry, Session};
-use crate::state_folder::{create_private, write_private};
-
-/// Stages of an identification besides one for each run.
-const STAGES: usize = 4;
+use crate::state_folder::create_private;
 
 /// Where the logs come from.
 enum Logs {
@@ -76,12 +73,14 @@ pub(crate) fn start_virtual(
 }
 
 fn start_with(app: &Shared, session: Session, logs: Logs) -> Result<Arc<Job>, Problem> {
-    let effort = Effort::from(session.setup.effort);
+    let effort = session.setup.effort.effort();
     let job = Arc::new(Job::new(effort.most_evaluations()));
     app.begin(&job)?;
     let (app, running) = (Arc::clone(app), Arc::clone(&job));
     thread::spawn(move || {
-        let work = || keep(&app, made(&session, logs, &running)?);
+        let made =
+            || made(&session, logs, &running).map_err(|p| p.without_folder(&app.folder.logs()));
+        let work = || keep(&app, made()?);
         let outcome = catch_unwind(AssertUnwindSafe(work));
         running.finish(outcome.unwrap_or_else(|_| {
             Err(Problem::internal("the identification has failed: this is an error in lissom"))
@@ -136,14 +135,14 @@ fn read(logs: Logs, job: &Job) -> Result<Read, Problem> {
 fn made(session: &Session, logs: Logs, job: &Job) -> Result<Made, Problem> {
     let is_virtual = matches!(logs, Logs::Virtual(_));
     let Read { file, campaign, truth } = read(logs, job)?;
-    let effort = Effort::from(session.setup.effort);
-    let found = |effort, interrupt: Interrupt, stage: &dyn Fn(lissom::identify::Stage)| {
+    let effort = session.setup.effort.effort();
+    let found = |effort, interrupt: Interrupt, stage: &dyn Fn(Stage)| {
         let options = Options { effort, interrupt, ..file.options() };
         identify(&file.campaign, &options, stage)
             .map_err(|error| Problem::input(error.to_string(), None))
     };
     refuse_if_dropped(job)?;
-    let stages = file.campaign.runs.len() + STAGES;
+    let stages = Stage::count(file.campaign.runs.len());
     if effort == Effort::Quick {
         job.first(Vec::new(), stages);
     } else {
@@ -178,7 +177,7 @@ fn made(session: &Session, logs: Logs, job: &Job) -> Result<Made, Problem> {
             runs: id.runs.len(),
             warnings: count(Severity::Warning),
             refusals: count(Severity::Refusal),
-            interrupted: is_interrupted(&id),
+            interrupted: id.is_interrupted(),
             setup: session.setup.clone(),
         },
         result: write::json_text(Path::new("result.json"), &result)
@@ -191,10 +190,6 @@ fn made(session: &Session, logs: Logs, job: &Job) -> Result<Made, Problem> {
 
 fn refuse_if_dropped(job: &Job) -> Result<(), Problem> {
     if job.is_dropped() { Err(Problem::input("stopped", None)) } else { Ok(()) }
-}
-
-fn is_interrupted(id: &Identified) -> bool {
-    id.output_error.as_ref().is_some_and(|found| found.end == SearchEnd::Interrupted)
 }
 
 /// The name of a result of the session: that of its campaign or first log.
@@ -234,9 +229,11 @@ fn keep(app: &Shared, made: Made) -> Result<u64, Problem> {
         ("report.html", made.page),
     ];
     let arm = made.arm.map(|arm| ("arm.toml", arm));
+    let mut batch = write::Batch::new();
     for (name, text) in files.into_iter().chain(arm) {
-        write_private(&folder.join(name), text.as_bytes())?;
+        batch.file(&folder.join(name), text.as_bytes()).map_err(lissom_io::Error::from)?;
     }
+    batch.commit().map_err(lissom_io::Error::from)?;
     app.amend(|session| session.results.push(ResultEntry { id, ..made.entry }))?;
     Ok(id)
 }

@@ -99,13 +99,7 @@ impl Job {
         self.with(|progress| {
             progress.done += 1;
             progress.searches = stage == Stage::OutputError;
-            progress.step = match stage {
-                Stage::Run(..) => "periods and harmonics",
-                Stage::Regression => "regression",
-                Stage::Beam => "beam",
-                Stage::OutputError => "search: simulating the runs",
-                Stage::Responses => "responses and models",
-            };
+            progress.step = stage.name();
         });
     }
 

@@ -4,7 +4,7 @@ use std::path::{Path, PathBuf};
 use std::sync::{Arc, Mutex, OnceLock, PoisonError};
 
 use lissom_formats::{LogData, ReadOptions};
-use lissom_io::inspect::{Inspection, Role, inspect_with};
+use lissom_io::inspect::{Inspection, inspect_with};
 
 use crate::problem::Problem;
 use crate::thinned::{Abscissa, Extremes, Points, thinned};
@@ -102,10 +102,11 @@ impl LogCache {
 impl CachedLog {
     fn read(path: &Path, name: &str, options: &ReadOptions) -> Result<Self, Problem> {
         let mut inspection = inspect_with(path, options).map_err(|error| {
-            let mut problem = Problem::from(error);
             // People know a log by its name, not by its place in the folder of the state.
-            problem.error = problem.error.replace(&path.display().to_string(), name);
-            problem
+            match path.parent() {
+                Some(folder) => Problem::from(error).without_folder(folder),
+                None => error.into(),
+            }
         })?;
         inspection.file = PathBuf::from(name);
         let nothing = LogData::of_columns::<String>([]);
@@ -120,10 +121,9 @@ impl CachedLog {
         self.data.channels.iter().map(|channel| channel.values.len()).sum()
     }
 
-    /// The channel with the stamps of a channel, if they increase.
-    fn stamps(&self, channel: usize) -> Option<usize> {
-        let own = self.inspection.channels[channel].time;
-        let time = own.or_else(|| Some(self.inspection.guess(Role::Time)?.channel))?;
+    /// The channel with the stamps of a channel, its own or those of the log, if they increase.
+    fn stamps(&self, channel: usize, of_log: Option<usize>) -> Option<usize> {
+        let time = self.inspection.channels[channel].time.or(of_log)?;
         let values = &self.data.channels[time].values;
         let as_long = values.len() == self.data.channels[channel].values.len();
         let increase = *self.increases[time].get_or_init(|| {
@@ -133,16 +133,18 @@ impl CachedLog {
         (as_long && increase && time != channel).then_some(time)
     }
 
-    /// The points of a channel, counted from 0, for a screen; all of them if no range is given.
+    /// The points of a channel, counted from 0, for a screen, over the stamps of channel `time` or over rows; all of them if no
+    /// range is given.
     pub(crate) fn trace(
         &self,
         channel: usize,
+        time: Option<usize>,
         range: Option<[f64; 2]>,
         pixels: usize,
     ) -> Option<TracePoints> {
         let values = &self.data.channels.get(channel)?.values;
         let known = self.extremes[channel].get_or_init(|| Extremes::of(values));
-        let time = self.stamps(channel);
+        let time = self.stamps(channel, time);
         let x = match time {
             Some(time) => Abscissa::Stamps(&self.data.channels[time].values),
             None => Abscissa::Rows,

@@ -1,5 +1,7 @@
 //! What the page shows when something does not work.
 
+use std::path::{MAIN_SEPARATOR, Path};
+
 use axum::Json;
 use axum::http::StatusCode;
 use axum::response::{IntoResponse, Response};
@@ -38,6 +40,12 @@ impl Problem {
     pub(crate) fn forbidden(error: &str, hint: Option<&str>) -> Self {
         let hint = hint.map(str::to_owned);
         Self { status: StatusCode::FORBIDDEN, error: error.to_owned(), hint }
+    }
+
+    /// The same without the names of a folder that people do not know.
+    pub(crate) fn without_folder(self, folder: &Path) -> Self {
+        let folder = format!("{}{MAIN_SEPARATOR}", folder.display());
+        Self { error: self.error.replace(&folder, ""), ..self }
     }
 
     /// A failure of the program itself or of the disk.

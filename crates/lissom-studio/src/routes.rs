@@ -111,6 +111,7 @@ struct NewSetup {
 
 async fn put_setup(State(app): State<Shared>, Json(new): Json<NewSetup>) -> Answer<StateView> {
     in_thread(move || {
+        app.check_reading(&new.setup)?;
         app.change(new.revision, |session| {
             session.setup = new.setup;
             let logs = session.logs.clone();
@@ -169,39 +170,9 @@ async fn put_file(
 
 /// Adds a file that has arrived. A log that cannot be read is refused.
 fn add_file(app: &Shared, name: String) -> Result<(), Problem> {
-    let kind = kind(&app.folder.logs().join(&name));
+    let kind = FileKind::of(&app.folder.logs().join(&name));
     let id = app.amend(Session::new_log)?;
-    let log = LogEntry { id, name, path: None, kind };
-    let is_first = app.session().used_logs().next().is_none();
-    let guessed = if kind == FileKind::Log {
-        let read = app.inspection(&app.session(), &log)?;
-        is_first.then(|| Setup::guessed(&read))
-    } else {
-        None
-    };
-    app.amend(|session| {
-        if let Some(guessed) = guessed.filter(|_| session.setup == Setup::default()) {
-            session.setup = guessed;
-        }
-        session.logs.push(log);
-        session.revision += 1;
-    })
-}
-
-/// What a file is.
-pub(crate) fn kind(path: &std::path::Path) -> FileKind {
-    let is_toml = path.extension().is_some_and(|ending| ending.eq_ignore_ascii_case("toml"));
-    if !is_toml {
-        return FileKind::Log;
-    }
-    match lissom_io::CampaignReader::of_file(path).run_files() {
-        Ok(_) => FileKind::Campaign,
-        // With a mistake it is still a campaign: its error is reported when it is read.
-        Err(_) if lissom_io::read_text(path).is_ok_and(|text| text.contains("[signals]")) => {
-            FileKind::Campaign
-        }
-        Err(_) => FileKind::Other,
-    }
+    app.add(LogEntry { id, name, path: None, kind }, false)
 }
 
 async fn remove_log(
@@ -245,7 +216,8 @@ async fn trace(
         let log = session.log(id).ok_or_else(|| Problem::not_found("log"))?;
         let pixels = part.pixels.unwrap_or(PIXELS).clamp(1, PIXELS_MOST);
         let range = part.from.zip(part.to).map(|(from, to)| [from, to]);
-        let points = app.log(&session, log)?.trace(channel.wrapping_sub(1), range, pixels);
+        let time = session.setup.time_channel(&*app.inspection(&session, log)?);
+        let points = app.log(&session, log)?.trace(channel.wrapping_sub(1), time, range, pixels);
         points.map(Json).ok_or_else(|| Problem::not_found("channel"))
     })
     .await

@@ -3,10 +3,10 @@
 use std::path::Path;
 
 use lissom::prelude::*;
-use lissom_io::write::csv_text;
+use lissom_io::write::{Batch, csv_text};
 
 use crate::problem::Problem;
-use crate::setup::{CommandKind, CommandPick, Pick, Setup};
+use crate::setup::{Pick, Setup};
 
 /// Frequency and amplitude of each run \[rad/s, rad\].
 const SINES: [(f64, f64); 4] = [(1.0, 0.5), (3.0, 0.5), (2.0, 0.5), (6.0, 0.3)];
@@ -14,9 +14,10 @@ const RECORD_S: f64 = 20.0;
 const SAMPLE_TIME_S: f64 = 3e-3;
 const ENCODER_BITS: u32 = 14;
 
-/// Writes the logs into a folder, and returns their names.
+/// Writes the logs into a folder, all or none, and returns their names.
 pub(crate) fn write(folder: &Path) -> Result<Vec<String>, Problem> {
     let campaign = simulated().map_err(Problem::internal)?;
+    let mut batch = Batch::new();
     let mut names = Vec::new();
     for (k, run) in campaign.runs.iter().enumerate() {
         let name = format!("sample-{}.csv", k + 1);
@@ -28,9 +29,10 @@ pub(crate) fn write(folder: &Path) -> Result<Vec<String>, Problem> {
             ("tip [rad]", &run.tips()[0]),
         ];
         let text = csv_text(&columns).map_err(lissom_io::Error::from)?;
-        crate::state_folder::write_private(&folder.join(&name), text.as_bytes())?;
+        batch.file(&folder.join(&name), text.as_bytes()).map_err(lissom_io::Error::from)?;
         names.push(name);
     }
+    batch.commit().map_err(lissom_io::Error::from)?;
     Ok(names)
 }
 
@@ -56,20 +58,11 @@ fn simulated() -> Result<Campaign, lissom::Error> {
     Ok(campaign.clone())
 }
 
-/// What is said about them.
+/// What is said about them, in addition to what they state.
 pub(crate) fn setup() -> Setup {
-    let pick = |column: &str, unit: &str| Pick {
-        column: column.to_owned(),
-        unit: unit.to_owned(),
-        ..Pick::default()
-    };
+    let (column, unit) = ("tip [rad]".to_owned(), "rad".to_owned());
     Setup {
-        command: Some(CommandPick {
-            kind: CommandKind::Current,
-            channel: pick("current [A]", "A"),
-        }),
-        motor: Some(pick("motor [rad]", "rad")),
-        tips: vec![pick("tip [rad]", "rad")],
+        tips: vec![Pick { column, unit, ..Pick::default() }],
         hold: "sampled".to_owned(),
         torque_constant: "0.2 N*m/A".to_owned(),
         ..Setup::default()

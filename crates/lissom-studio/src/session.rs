@@ -1,12 +1,13 @@
 //! What is kept between two starts: `session.json`.
 
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 use lissom_io::inspect::{Description, Inspection};
+use lissom_io::{CampaignReader, EffortName};
 use serde::{Deserialize, Serialize};
 
 use crate::problem::Problem;
-use crate::setup::{EffortName, Setup};
+use crate::setup::Setup;
 
 /// Number of the format of `session.json`.
 const FORMAT: u32 = 1;
@@ -75,6 +76,18 @@ pub(crate) struct ResultEntry {
     pub(crate) interrupted: bool,
     /// The setup that it was made with.
     pub(crate) setup: Setup,
+}
+
+impl FileKind {
+    /// What a file is, by its content. A campaign with a mistake is still one: the mistake is reported when it is read.
+    pub(crate) fn of(path: &Path) -> Self {
+        if !path.extension().is_some_and(|ending| ending.eq_ignore_ascii_case("toml")) {
+            return Self::Log;
+        }
+        let describes = || lissom_io::read_text(path).is_ok_and(|text| text.contains("[signals]"));
+        let is_campaign = CampaignReader::of_file(path).run_files().is_ok() || describes();
+        if is_campaign { Self::Campaign } else { Self::Other }
+    }
 }
 
 impl Default for Session {

@@ -2,8 +2,11 @@
 
 use std::path::PathBuf;
 
-use lissom::identify::Effort;
-use lissom_io::inspect::{Choice, CommandKey, Description, Inspection, LogTrim, Role};
+use lissom_io::EffortName;
+use lissom_io::inspect::{
+    Choice, CommandKey, Description, InspectedChannel, Inspection, LogTrim, Role,
+};
+use lissom_io::units::{Dimension, parse_quantity, parse_unit};
 use serde::{Deserialize, Serialize};
 
 use crate::problem::Problem;
@@ -68,26 +71,6 @@ pub(crate) enum CommandKind {
     Goal,
 }
 
-/// How far the search goes.
-#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize, Deserialize)]
-#[serde(rename_all = "kebab-case")]
-pub(crate) enum EffortName {
-    Quick,
-    #[default]
-    Normal,
-    Thorough,
-}
-
-impl From<EffortName> for Effort {
-    fn from(name: EffortName) -> Self {
-        match name {
-            EffortName::Quick => Self::Quick,
-            EffortName::Normal => Self::Normal,
-            EffortName::Thorough => Self::Thorough,
-        }
-    }
-}
-
 /// What of a log is left out.
 #[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
 #[serde(default, deny_unknown_fields)]
@@ -105,14 +88,17 @@ fn said(text: &str) -> Option<String> {
 }
 
 impl Pick {
+    /// The channel of the log with this name or number.
+    fn channel<'a>(&self, log: &'a Inspection) -> Option<&'a InspectedChannel> {
+        let column = self.column.trim();
+        let is_named = |c: &&InspectedChannel| c.name == column || c.number.to_string() == column;
+        log.channels.iter().find(is_named)
+    }
+
     /// The channel, which must be one of the log: names of other files are no channels here.
     fn choice(&self, log: &Inspection) -> Result<Option<Choice>, Problem> {
         let Some(column) = said(&self.column) else { return Ok(None) };
-        let is_there = log
-            .channels
-            .iter()
-            .any(|channel| channel.name == column || channel.number.to_string() == column);
-        if !is_there {
+        if self.channel(log).is_none() {
             let error = format!("{}: there is no channel \"{column}\"", log.file.display());
             return Err(Problem::input(error, Some("choose one of its channels".to_owned())));
         }
@@ -148,6 +134,28 @@ impl Setup {
     /// The setup of a log about which nothing is said: a channel that is probably a point of the arm is one.
     pub(crate) fn guessed(log: &Inspection) -> Self {
         Self { tips: Pick::of_guessed_tip(log).into_iter().collect(), ..Self::default() }
+    }
+
+    /// Index of the channel with the time stamps; none if a sample time takes their place.
+    pub(crate) fn time_channel(&self, log: &Inspection) -> Option<usize> {
+        if said(&self.sample_time).is_some() {
+            return None;
+        }
+        match &self.time {
+            Some(pick) => Some(pick.channel(log)?.number - 1),
+            None => Some(log.guess(Role::Time)?.channel),
+        }
+    }
+
+    /// Seconds for one unit of the time stamps, or for one row; none if that is not known.
+    pub(crate) fn stamp_s(&self, log: &Inspection) -> Option<f64> {
+        if let Some(sample_time) = said(&self.sample_time) {
+            return parse_quantity(&sample_time, Dimension::TIME).ok();
+        }
+        let channel = &log.channels[self.time_channel(log)?];
+        let own = self.time.as_ref().and_then(|pick| said(&pick.unit));
+        let unit = own.or_else(|| Some(channel.unit.as_ref()?.text.clone()))?;
+        parse_unit(&unit, Dimension::TIME).ok()
     }
 
     /// The description of a campaign of the logs that are used, of which `log` is the first; `file` gives the path of a log.

@@ -2,6 +2,7 @@
 
 use std::sync::Arc;
 
+use lissom_io::CampaignReader;
 use lissom_io::inspect::{CampaignDraft, InspectedLogEntry, Inspection, InspectionFile};
 use serde::Serialize;
 
@@ -38,6 +39,8 @@ struct LogView {
     kind: FileKind,
     used: bool,
     log: Option<InspectedLogEntry>,
+    /// Seconds for one unit of its time stamps, or for one row; none if that is not known.
+    stamp_s: Option<f64>,
     problem: Option<Problem>,
 }
 
@@ -48,8 +51,6 @@ struct CampaignView {
     text: String,
     /// Whether a campaign.toml was given, so that nothing else is said about the logs.
     given: bool,
-    /// What was taken from the log: each line with the reason.
-    taken: Vec<[String; 2]>,
     /// Why it cannot be identified yet.
     problems: Vec<Problem>,
 }
@@ -73,6 +74,7 @@ impl StateView {
             kind: log.kind,
             used: log.kind != FileKind::Log || !session.setup.left_out.contains(&log.id),
             log: read.as_ref().and_then(|read| inspected(read.as_ref().ok()?)),
+            stamp_s: read.as_ref().and_then(|read| session.setup.stamp_s(read.as_ref().ok()?)),
             problem: read.as_ref().and_then(|read| read.as_ref().err()).cloned(),
         });
         Self {
@@ -95,13 +97,14 @@ fn inspected(log: &Arc<Inspection>) -> Option<InspectedLogEntry> {
 
 fn campaign(app: &App, session: &Session, first: Option<&Arc<Inspection>>) -> CampaignView {
     if let Some(given) = session.campaign() {
-        let text = app.path(given).and_then(|path| Ok(std::fs::read_to_string(path)?));
-        return match text {
-            Ok(text) => CampaignView { text, given: true, ..CampaignView::default() },
-            Err(problem) => {
-                CampaignView { given: true, problems: vec![problem], ..CampaignView::default() }
-            }
+        let read = || {
+            let path = app.path(given)?;
+            let reader = CampaignReader::of_file(&path);
+            let reader = if given.path.is_none() { reader.confined() } else { reader };
+            Ok((lissom_io::read_text(&path)?, checked(app, reader)))
         };
+        let (text, problem) = read().unwrap_or_else(|problem| (String::new(), Some(problem)));
+        return CampaignView { text, given: true, problems: problem.into_iter().collect() };
     }
     let Some(first) = first else { return CampaignView::default() };
     let draft = || {
@@ -112,15 +115,22 @@ fn campaign(app: &App, session: &Session, first: Option<&Arc<Inspection>>) -> Ca
             .map_err(Problem::from)
     };
     match draft() {
-        Ok(draft) => CampaignView {
-            text: draft.commented(),
-            given: false,
-            taken: draft.taken().map(|(line, why)| [line.to_owned(), why.to_owned()]).collect(),
-            problems: draft
-                .missing()
-                .map(|error| Problem::input(error.to_string(), None))
-                .collect(),
-        },
+        Ok(draft) => {
+            CampaignView { text: draft.commented(), given: false, problems: problems(app, &draft) }
+        }
         Err(problem) => CampaignView { problems: vec![problem], ..CampaignView::default() },
     }
+}
+
+/// What is missing or wrong in a draft.
+fn problems(app: &App, draft: &CampaignDraft) -> Vec<Problem> {
+    let missing = draft.missing().map(|error| Problem::input(error.to_string(), None));
+    let missing: Vec<Problem> = missing.collect();
+    let Ok(text) = draft.text() else { return missing };
+    checked(app, CampaignReader::of_text("campaign.toml", text)).into_iter().collect()
+}
+
+/// What is wrong in a description, without reading its logs.
+fn checked(app: &App, reader: CampaignReader) -> Option<Problem> {
+    reader.check().err().map(|error| Problem::from(error).without_folder(&app.folder.logs()))
 }

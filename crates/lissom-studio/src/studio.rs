@@ -1,6 +1,7 @@
 //! The application: opened, then run.
 
 use std::fs;
+use std::io;
 use std::net::{Ipv4Addr, TcpListener};
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
@@ -11,9 +12,9 @@ use sha2::{Digest as _, Sha256};
 use crate::access::hex;
 use crate::app::{App, Shared};
 use crate::opener;
+use crate::problem::Problem;
 use crate::routes;
 use crate::session::{FileKind, LogEntry, Session};
-use crate::setup::Setup;
 use crate::state_folder::StateFolder;
 use crate::studio_error::StudioError;
 use crate::uploads;
@@ -58,9 +59,7 @@ impl Studio {
         let folder = StateFolder::open(&folder)?;
         let failed = |source| StudioError::Folder { folder: folder.path().to_owned(), source };
         uploads::clean(&folder.logs()).map_err(failed)?;
-        let mut session = folder.read()?;
-        add_given(&mut session, logs);
-        folder.write(&session).map_err(failed)?;
+        let session = folder.read()?;
         let wanted = options.port.unwrap_or(0);
         let no_port = |source| StudioError::Port { port: wanted, source };
         let listener = TcpListener::bind((Ipv4Addr::LOCALHOST, wanted)).map_err(no_port)?;
@@ -68,6 +67,11 @@ impl Studio {
         let port = listener.local_addr().map_err(no_port)?.port();
         let quota_bytes = options.quota_bytes.unwrap_or(QUOTA_BYTES);
         let app = Arc::new(App::new(folder, session, port, quota_bytes));
+        let failed = |problem: Problem| StudioError::Folder {
+            folder: app.folder.path().to_owned(),
+            source: io::Error::other(problem.error),
+        };
+        add_given(&app, logs).map_err(failed)?;
         let address = opener::address(port, &app.access.new_token()?);
         let opener = opener::write(app.folder.path(), &address).map_err(|source| {
             StudioError::Folder { folder: app.folder.path().to_owned(), source }
@@ -137,22 +141,16 @@ fn own_folder(logs: &[(String, PathBuf)]) -> Result<PathBuf, StudioError> {
     Ok(all.join(format!("{}-{digest}", uploads::plain_name(name))))
 }
 
-/// Adds files that are not in the session yet.
-fn add_given(session: &mut Session, logs: Vec<(String, PathBuf)>) {
-    for (name, path) in logs {
-        if session.logs.iter().any(|log| log.path.as_ref() == Some(&path)) {
-            continue;
-        }
-        let kind = routes::kind(&path);
-        let is_first = session.logs.is_empty();
-        if is_first
-            && kind == FileKind::Log
-            && let Ok(log) = lissom_io::inspect::inspect(&path)
-        {
-            session.setup = Setup::guessed(&log);
-        }
-        let id = session.new_log();
-        session.logs.push(LogEntry { id, name, path: Some(path), kind });
-        session.revision += 1;
+/// Adds files that are not in the session yet. The first log is read to guess what its channels are.
+fn add_given(app: &App, logs: Vec<(String, PathBuf)>) -> Result<(), Problem> {
+    let known = app.session();
+    let is_new = |(_, path): &(String, PathBuf)| {
+        !known.logs.iter().any(|log| log.path.as_ref() == Some(path))
+    };
+    for (name, path) in logs.into_iter().filter(is_new) {
+        let kind = FileKind::of(&path);
+        let id = app.amend(Session::new_log)?;
+        app.add(LogEntry { id, name, path: Some(path), kind }, true)?;
     }
+    Ok(())
 }

@@ -109,7 +109,9 @@ export class Channels {
       void this.store.say((setup) => row.set(setup, { ...pickOf(row, shown), scale: value }));
     });
     const unit = this.unit(row, shown);
-    const why = !row.pick && guess && row.role !== "speed" ? h("span", { class: "why" }, guess.why) : null;
+    const replaced = row.role === "time" && this.store.state.setup.sample_time !== "";
+    const words = replaced ? "not used: a sample time is given below" : !row.pick && guess && row.role !== "speed" ? guess.why : "";
+    const why = words ? h("span", { class: "why" }, words) : null;
     const parts = shown ? [unit, scale, ...(row.more ?? [])] : [...(row.more ?? [])];
     const name = h("label", { for: `${row.id}-channel` }, row.label);
     return h("div", { class: "field" }, name, h("div", { class: "row" }, channel, ...parts, why));
@@ -133,6 +135,8 @@ export class Channels {
       }
       const other = text(`${row.id}-unit`, `${row.label}: unit`, "", "such as mN*m", set);
       select.replaceWith(other);
+      other.addEventListener("blur", () => other.isConnected && other.value === "" && other.replaceWith(select));
+      select.value = current;
       other.focus();
     });
     return select;

@@ -3,7 +3,7 @@
 import { send, sendFile } from "./api";
 import { button, counted, h, put, seconds } from "./dom";
 import type { Store } from "./store";
-import type { LogView, State } from "./types";
+import type { LogView, Problem, State } from "./types";
 
 export class Files {
   readonly element = h("section", { "aria-label": "Logs" });
@@ -29,16 +29,22 @@ export class Files {
     });
   }
 
-  /** Sends files, one after the other; those that cannot be read are named. */
+  /** Sends files, one after the other, and names those that cannot be read. */
   private async add(files: readonly File[]): Promise<void> {
     // A campaign comes last: it describes what is there then.
+    const refused: Problem[] = [];
     const last = (file: File) => Number(file.name.toLowerCase().endsWith(".toml"));
     for (const file of [...files].sort((a, b) => last(a) - last(b))) {
       const done = await this.store.during(`reading ${file.name}`, async () => {
         this.store.take(await sendFile<State>(file));
       });
-      if (!done) return;
+      if (!done && this.store.problem) refused.push(this.store.problem);
     }
+    const [first, ...others] = refused;
+    if (!first) return;
+    const hint = [first.hint, ...others.map(({ error }) => error)].filter(Boolean).join("; ");
+    this.store.problem = { error: first.error, hint };
+    this.store.changed();
   }
 
   private sample(): void {

@@ -12,6 +12,10 @@ export class Identify {
   private readonly progress = h("div", { "aria-live": "polite" });
   private job: Job | null = null;
   private polling = false;
+  private starting = false;
+  private stopping = false;
+  /** The revision of the session in which the job ended. */
+  private ended = 0;
 
   /** `done` is called with the number of a new result. */
   constructor(
@@ -25,11 +29,11 @@ export class Identify {
       this.job = job;
       void this.poll();
     }
-    if (logs.length === 0) {
+    const runs = this.starting || (this.job !== null && !this.job.finished);
+    if (logs.length === 0 && !runs) {
       put(this.element);
       return;
     }
-    const runs = this.job !== null && !this.job.finished;
     const start = button("Identify", () => void this.start(), { id: "identify", class: "main", disabled: runs || campaign.problems.length > 0 });
     const missing = campaign.problems.map(({ error, hint }) => h("li", {}, error, hint ? h("span", { class: "why" }, ` ${hint}`) : null));
     const needed = missing.length > 0 ? h("div", { class: "missing-list" }, h("p", {}, "Before it can be identified:"), h("ul", { id: "missing" }, ...missing)) : null;
@@ -60,11 +64,16 @@ export class Identify {
   }
 
   private async start(): Promise<void> {
+    if (this.starting) return;
+    this.starting = true;
+    this.render();
     await this.store.settled();
     const started = await this.store.during("", async () => {
       this.job = await send<Job>("POST", "/api/job", { revision: this.store.state.revision });
     });
+    this.starting = false;
     if (started) await this.poll();
+    else this.render();
   }
 
   private async poll(): Promise<void> {
@@ -81,15 +90,18 @@ export class Identify {
         this.store.changed();
         return;
       }
+      if (this.job.finished) this.ended = this.store.state.revision;
       this.renderProgress();
     }
-    this.polling = false;
+    [this.polling, this.stopping] = [false, false];
     const result = this.job?.result ?? null;
     await this.store.load();
     if (result !== null) this.done(result);
   }
 
   private stop(): void {
+    this.stopping = true;
+    this.renderProgress();
     void this.store.during("", async () => {
       this.job = await send<Job>("DELETE", "/api/job");
     });
@@ -98,6 +110,12 @@ export class Identify {
   private renderProgress(): void {
     const { job } = this;
     if (!job) {
+      put(this.progress);
+      return;
+    }
+    // What ended before a change says nothing about what is there now.
+    if (job.finished && this.store.state.revision !== this.ended) {
+      this.job = null;
       put(this.progress);
       return;
     }
@@ -110,7 +128,7 @@ export class Identify {
     const bar = h("progress", { max: 1, "aria-label": "progress", ...(job.done === null ? {} : { value: job.done }) });
     const left = job.at_most_s === null ? "" : `, at most ${seconds(job.at_most_s)} more`;
     const known = h("span", { id: "step" }, `${job.step}, ${seconds(job.elapsed_s)}${left}`);
-    const stop = button("Stop with the best so far", () => this.stop(), { id: "stop" });
+    const stop = button(this.stopping ? "Stopping…" : "Stop with the best so far", () => this.stop(), { id: "stop", disabled: this.stopping });
     const rows = job.first.map(({ name, value, unit }) => h("tr", {}, h("td", {}, name), h("td", { class: "n" }, value), h("td", {}, unit)));
     const table = rows.length > 0 ? h("table", { class: "first" }, h("caption", {}, "First result, without the search"), h("tbody", {}, ...rows)) : null;
     put(this.progress, h("div", { class: "row" }, bar, known, stop), table);

@@ -22,7 +22,8 @@ const files = new Files(store);
 const results = new Results(store);
 const identify = new Identify(store, (result) => {
   results.show(result);
-  choose("Results");
+  // Whoever reads or compares meanwhile is not disturbed.
+  if (chosen === "Logs" || chosen === "Plan") choose("Results");
 });
 const tabs: Record<string, readonly View[]> = {
   Logs: [files, new Channels(store), identify, new Motion(store)],

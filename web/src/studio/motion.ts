@@ -6,7 +6,7 @@ import type { Range } from "../range";
 import { UnitChoice } from "../units";
 import { get } from "./api";
 import { label } from "./channels";
-import { button, h, put, seconds } from "./dom";
+import { button, h, put } from "./dom";
 import type { Store } from "./store";
 import type { Channel, InspectedLog, LogView, Setup, Trace, Trim } from "./types";
 
@@ -80,18 +80,17 @@ export class Motion {
     this.channels = this.shown(main.log).map((channel) => channel.asked);
     const { setup } = this.store.state;
     const trims = JSON.stringify(setup.trims.filter((trim) => this.drawn.includes(trim.log)));
-    const key = JSON.stringify([this.drawn, this.channels, trims, setup.header_row, setup.skip_rows]);
+    const key = JSON.stringify([this.drawn, this.channels, trims, setup.header_row, setup.skip_rows, setup.time, setup.sample_time]);
     if (key === this.key) return;
     this.key = key;
     const turn = ++this.asked;
     try {
       const data = await this.points(null, PIXELS);
       if (turn !== this.asked) return;
-      const shown = this.figure?.shownRange();
+      const shown = this.figure?.shownRange() ?? null;
       this.figure?.end();
       this.place.replaceChildren();
-      this.figure = new Figure(this.place, data, this.choice, null, (range, pixels) => this.points(range, pixels));
-      if (shown) this.figure.show(shown);
+      this.figure = new Figure(this.place, data, this.choice, null, (range, pixels) => this.points(range, pixels), shown);
     } catch (error) {
       put(this.place, h("p", { class: "wrong" }, String(error)));
     }
@@ -142,7 +141,7 @@ export class Motion {
   /** What of a log is left out, in the unit of its stamps. */
   private regions(log: LogView): RegionData[] {
     const trim = this.store.state.setup.trims.find((each) => each.log === log.id);
-    const unit = this.unit(log);
+    const unit = log.stamp_s;
     if (!trim || unit === null) return [];
     const at = (text: string) => Number.parseFloat(text) / unit;
     const region = (from: number, to: number): RegionData => ({ label: "left out", role: "other3", from, to });
@@ -154,19 +153,10 @@ export class Motion {
     ];
   }
 
-  /** Seconds for one unit of the stamps; none if there are no stamps or their unit is unknown. */
-  private unit(log: LogView): number | null {
-    const { setup } = this.store.state;
-    const time = log.log?.roles.find(({ role }) => role === "time")?.channel;
-    const channel = log.log?.channels.find(({ number }) => number === time);
-    const sizes: Record<string, number> = { s: 1, ms: 1e-3, us: 1e-6, "µs": 1e-6, ns: 1e-9, min: 60 };
-    return sizes[setup.time?.unit || (channel?.unit ?? "")] ?? null;
-  }
-
-  /** Changes what is left out of the log that is drawn. */
+  /** Changes which stretches of the first drawn log are excluded. */
   private trim(change: (trim: Trim, shown: Range, end: number) => void): void {
     const log = this.main();
-    const unit = log && this.unit(log);
+    const unit = log?.stamp_s;
     const shown = this.figure?.shownRange();
     if (!log || !unit || !shown) return;
     const end = log.log?.clock?.length ?? 0;
@@ -192,14 +182,14 @@ export class Motion {
       overlay.append(h("label", { class: "check" }, box, log.name));
     }
     const parts: (Node | string | null)[] = [logs.length > 1 ? overlay : null];
-    if (main && this.unit(main) !== null) {
+    if (main && main.stamp_s !== null) {
       const time = (value: number) => `${Number(value.toPrecision(6))} s`;
       parts.push(
         h("p", { class: "why" }, `Zoom by dragging; then, of ${main.name}:`),
         h(
           "div",
           { class: "row" },
-          button("Leave out what is shown", () => this.trim((trim, [from, to]) => trim.leave_out.push([time(from), time(to)])), { id: "leave-out" }),
+          button("Leave out what is shown", () => this.trim((trim, range, end) => this.leaveOut(trim, range, end, time)), { id: "leave-out" }),
           button("Keep only what is shown", () => this.trim((trim, [from, to], end) => this.keep(trim, from, to, end, time)), { id: "keep-only" }),
           button("Use all again", () => this.trim((trim) => Object.assign(trim, { skip: "", until: "", leave_out: [] })), { id: "use-all" }),
           h("span", { id: "trimmed" }, words(this.store.state.setup, main.id)),
@@ -207,6 +197,14 @@ export class Motion {
       );
     }
     put(this.table, ...parts);
+  }
+
+  private leaveOut(trim: Trim, [from, to]: Range, end: number, time: (value: number) => string): void {
+    if (from <= 0 && to >= end) {
+      this.store.problem = { error: "this is the whole log", hint: "Zoom into the stretch first, or take the log out of use above." };
+      return;
+    }
+    trim.leave_out.push([time(from), time(to)]);
   }
 
   private keep(trim: Trim, from: number, to: number, end: number, time: (value: number) => string): void {
@@ -218,7 +216,7 @@ export class Motion {
 function words(setup: Setup, log: number): string {
   const trim = setup.trims.find((each) => each.log === log);
   if (!trim) return "Nothing of it is left out.";
-  const number = (text: string) => seconds(Number.parseFloat(text));
+  const number = (text: string) => `${Number(Number.parseFloat(text).toPrecision(5))} s`;
   const parts = [
     ...(trim.skip ? [`before ${number(trim.skip)}`] : []),
     ...(trim.until ? [`after ${number(trim.until)}`] : []),

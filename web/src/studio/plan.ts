@@ -20,7 +20,15 @@ export class Plan {
   constructor(
     private readonly store: Store,
     private readonly identify: Identify,
-  ) {}
+  ) {
+    // A plan is for the arm that it was made for.
+    for (const input of [this.arm, this.precision, this.within]) {
+      input.addEventListener("input", () => {
+        this.plan = null;
+        this.renderPlan();
+      });
+    }
+  }
 
   render(): void {
     const { results } = this.store.state;

@@ -115,7 +115,7 @@ export class Compare {
       return;
     }
     this.chosen = this.chosen.filter((id) => results.some((result) => result.id === id));
-    if (this.chosen.length < 2) this.chosen = results.slice(-2).map(({ id }) => id);
+    if (this.chosen.length === 0) this.chosen = results.slice(-2).map(({ id }) => id);
     const boxes = results.map((result) => {
       const box = h("input", { type: "checkbox", id: `compare-${result.id}` });
       box.checked = this.chosen.includes(result.id);

@@ -32,6 +32,8 @@ export interface LogView {
   readonly kind: "log" | "campaign" | "other";
   readonly used: boolean;
   readonly log: InspectedLog | null;
+  /** Seconds for one unit of its time stamps, or for one row; none if that is not known. */
+  readonly stamp_s: number | null;
   readonly problem: Problem | null;
 }
 
@@ -108,7 +110,6 @@ export interface State {
   readonly campaign: {
     readonly text: string;
     readonly given: boolean;
-    readonly taken: readonly (readonly [string, string])[];
     readonly problems: readonly Problem[];
   };
   readonly job: Job | null;

@@ -4,7 +4,7 @@ use std::io::{IsTerminal as _, stdout};
 use std::path::Path;
 
 use lissom::DescribedLogs;
-use lissom::identify::{Effort, Identified, SearchEnd, Severity};
+use lissom::identify::{Effort, Identified, Severity};
 use lissom_io::write::{self, Batch};
 use lissom_io::{ResultFile, UnitNames, read_campaign};
 use lissom_views::known_arm::checked;
@@ -113,7 +113,7 @@ fn described(args: &IdentifyArgs) -> Result<Option<DescribedLogs>, Failure> {
 }
 
 fn code(id: &Identified) -> ExitCode {
-    if id.output_error.as_ref().is_some_and(|found| found.end == SearchEnd::Interrupted) {
+    if id.is_interrupted() {
         return ExitCode::INTERRUPTED;
     }
     let refused = id.findings.iter().any(|f| f.severity() == Severity::Refusal);

@@ -57,13 +57,7 @@ impl Stages {
     /// Shows the stage that identification has reached.
     pub(crate) fn stage(&self, stage: Stage) {
         self.bar.inc(1);
-        self.bar.set_message(match stage {
-            Stage::Run(..) => "periods and harmonics",
-            Stage::Regression => "regression",
-            Stage::Beam => "beam",
-            Stage::OutputError => "output-error method",
-            Stage::Responses => "responses and models",
-        });
+        self.bar.set_message(stage.name());
         if stage == Stage::OutputError {
             self.show_evaluations();
         }
@@ -93,11 +87,6 @@ impl Stages {
     pub(crate) fn finish(&self) {
         self.bar.finish_and_clear();
     }
-}
-
-/// Number of stages of an identification of `runs` runs.
-pub(crate) fn steps(runs: usize) -> usize {
-    runs + 4
 }
 
 /// Progress of a fleet.

@@ -3,7 +3,7 @@
 use std::path::Path;
 use std::time::Duration;
 
-use lissom::identify::{Effort, Identified, Interrupt, Options, identify};
+use lissom::identify::{Effort, Identified, Interrupt, Options, Stage, identify};
 use lissom_io::CampaignFile;
 
 use crate::shared::failure::Failure;
@@ -31,7 +31,7 @@ pub(crate) fn identified(
     let interrupt = limit.map_or_else(Interrupt::default, Interrupt::after);
     interrupted::on_ctrl_c(&interrupt);
     let options = options(file, asked, interrupt);
-    let steps = progress_bar::steps(file.campaign.runs.len());
+    let steps = Stage::count(file.campaign.runs.len());
     let progress = progress_bar::Stages::new(steps, &options);
     let id = identify(&file.campaign, &options, |stage| progress.stage(stage));
     progress.finish();

@@ -11,7 +11,7 @@ use crate::identify::judge::{Conclusion, Methods};
 use crate::identify::methods::constant_velocity::ConstantVelocity;
 use crate::identify::methods::friction_law::FrictionLaw;
 use crate::identify::methods::least_squares::LeastSquares;
-use crate::identify::methods::output_error::OutputError;
+use crate::identify::methods::output_error::{OutputError, SearchEnd};
 use crate::identify::methods::regression::{BeamRegression, MotorRegression};
 use crate::identify::methods::third_harmonic::ThirdHarmonic;
 use crate::identify::prepare::run_analysis::RunAnalysis;
@@ -91,6 +91,11 @@ pub struct Identified {
 }
 
 impl Identified {
+    /// Whether the search was ended early, with the best result so far.
+    pub fn is_interrupted(&self) -> bool {
+        self.output_error.as_ref().is_some_and(|found| found.end == SearchEnd::Interrupted)
+    }
+
     /// Joins what the methods found and what was taken of it; nothing changes afterwards.
     pub(super) fn new(
         campaign: &Campaign,

@@ -76,6 +76,24 @@ pub enum Stage {
     Responses,
 }
 
+impl Stage {
+    /// Number of stages of an identification of so many runs.
+    pub fn count(runs: usize) -> usize {
+        runs + 4
+    }
+
+    /// Its name for people.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Run(..) => "periods and harmonics",
+            Self::Regression => "regression",
+            Self::Beam => "beam",
+            Self::OutputError => "output-error method",
+            Self::Responses => "responses and models",
+        }
+    }
+}
+
 /// Identifies drive and beam from a campaign.
 ///
 /// Runs are prepared once: channels are checked, noise is measured, harmonics of sinusoidal runs are computed. Each

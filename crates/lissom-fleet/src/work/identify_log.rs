@@ -8,9 +8,9 @@ use std::time::Instant;
 use lissom::io::log::LogPath;
 use lissom::io::{CampaignFile, LogError};
 use lissom::{Found, Identify};
+use lissom_io::EffortName;
 
 use crate::checksum::Checksum;
-use crate::effort_name::EffortName;
 use crate::fleet_error::FleetError;
 use crate::fleet_log::FleetLog;
 use crate::row::{Failure, FleetRow, RowOutcome, RowResult};

@@ -1,6 +1,6 @@
 #![expect(clippy::float_cmp, reason = "these numbers are exact")]
 
-use std::f64::consts::{PI, TAU};
+use std::f64::consts::PI;
 use std::fmt::Write as _;
 use std::path::Path;
 
@@ -28,7 +28,7 @@ pub(super) fn signal(k: usize) -> f64 {
 }
 
 /// Rows t, u, x, y at 1 ms: time, row number modulo 4, a sine and its cosine.
-fn log(rows: impl IntoIterator<Item = usize>) -> String {
+pub(super) fn log(rows: impl IntoIterator<Item = usize>) -> String {
     let mut text = String::from("t,u,x,y\n");
     for k in rows {
         let (time, angle) = (k as f64 / 1000.0, k as f64 * 0.1);
@@ -81,59 +81,6 @@ fn scale_offset_and_unit_apply_in_that_order() {
     let run = &read(&text).unwrap().campaign.runs[0];
     assert!((run.motor()[5] - (2.0 * signal(5) + 10.0) * PI / 180.0).abs() < 1e-15);
     assert_eq!(run.command()[3], -3e-3);
-}
-
-#[test]
-fn a_confined_campaign_reads_nothing_outside_of_its_folder() {
-    const OWN: &str =
-        "unit = \"rad\", file = \"/dev/zero\", time = { column = \"t\", unit = \"s\" }";
-    let outside = |text: String| {
-        let reader = CampaignReader::of_text("campaign", text).confined();
-        reader.read().unwrap_err().to_string()
-    };
-    for file in ["../a.csv", "/etc/hostname", "b/../../a.csv::x"] {
-        let error = outside(PLAIN.replace("a.csv", file));
-        assert!(error.ends_with("is not inside the folder of the campaign"), "{error}");
-    }
-    let arm = outside(PLAIN.replace("[drive]", "[drive]\narm = \"../arm.toml\""));
-    assert!(arm.ends_with("is not inside the folder of the campaign"), "{arm}");
-    let own = outside(PLAIN.replace("unit = \"rad\"", OWN));
-    assert_eq!(own, "/dev/zero: is not inside the folder of the campaign");
-    let inside = outside(PLAIN.replace("a.csv", "none/a.csv"));
-    assert!(inside.contains("cannot be opened"), "{inside}");
-}
-
-#[test]
-fn stretches_of_a_run_may_be_left_out() {
-    let more = "until = \"0.35 s\"\nleave_out = [[\"100 ms\", 0.2]]\n";
-    let logs = [("a.csv", log(0..400))];
-    let logs = logs.each_ref().map(|(name, log)| (*name, log.as_str()));
-    let runs = read_logs(&format!("{PLAIN}{more}"), &logs).unwrap().campaign.runs;
-    let found: Vec<(&str, usize)> = runs.iter().map(|run| (run.name(), run.len())).collect();
-    assert_eq!(found, [("a.csv [1/2]", 100), ("a.csv [2/2]", 150)]);
-    assert_eq!(runs[0].notes(), [Note::LeftOut { stretches: 2 }]);
-    for wrong in ["leave_out = [\"1 s\"]", "leave_out = [[1, 2, 3]]", "leave_out = [[2, 1]]"] {
-        let error = read_logs(&format!("{PLAIN}{wrong}\n"), &logs).unwrap_err().to_string();
-        assert!(error.contains("a list of stretches"), "{error}");
-    }
-}
-
-#[test]
-fn runs_may_have_name_frequency_and_skip() {
-    let text = format!(
-        "{PLAIN}name = \"one\"\nfrequency = \"5 Hz\"\n[[runs]]\nfile = \"b.csv\"\nomega_rad_s = 3\nskip = \"20 ms\"\n\
-         [analysis]\nskip = \"0.01 s\"\nwindow = [\"0.3 s\", 0.5]\nharmonics = 9\n"
-    );
-    let slow = log((0..100).map(|k| 2 * k));
-    let file = read_logs(&text, &[("a.csv", &log(0..100)), ("b.csv", &slow)]).unwrap();
-    let [first, second] = &file.campaign.runs[..] else { panic!("two runs") };
-    assert_eq!((first.name(), first.len()), ("one", 90));
-    assert!((first.omega_rad_s().unwrap() - 5.0 * TAU).abs() < 1e-12);
-    assert_eq!(first.notes(), [Note::HeadSkipped { seconds: 0.01 }]);
-    assert_eq!(first.time().start_s, 0.01);
-    assert_eq!((second.name(), second.len(), second.sample_time_s()), ("b.csv", 90, 0.002));
-    assert_eq!(second.omega_rad_s(), Some(3.0));
-    assert_eq!((file.analysis.window_s, file.analysis.harmonics), (vec![0.3, 0.5], Some(9)));
 }
 
 #[test]
@@ -502,4 +449,26 @@ proptest! {
         std::fs::write(folder.path().join("a.csv"), bytes).unwrap();
         let _ = read_campaign(&folder.path().join("campaign.toml"));
     }
+}
+
+#[test]
+fn a_confined_campaign_reads_nothing_outside_of_its_folder() {
+    const OWN: &str =
+        "unit = \"rad\", file = \"/dev/zero\", time = { column = \"t\", unit = \"s\" }";
+    let outside = |text: String| {
+        let reader = CampaignReader::of_text("campaign", text).confined();
+        reader.read().unwrap_err().to_string()
+    };
+    for file in ["../a.csv", "/etc/hostname", "b/../../a.csv::x"] {
+        let error = outside(PLAIN.replace("a.csv", file));
+        assert!(error.ends_with("is not inside the folder of the campaign"), "{error}");
+    }
+    let arm = outside(PLAIN.replace("[drive]", "[drive]\narm = \"../arm.toml\""));
+    assert!(arm.ends_with("is not inside the folder of the campaign"), "{arm}");
+    let own = outside(PLAIN.replace("unit = \"rad\"", OWN));
+    assert_eq!(own, "/dev/zero: is not inside the folder of the campaign");
+    let checked = CampaignReader::of_text("campaign", PLAIN.replace("a.csv", "none/a.csv"));
+    checked.confined().check().unwrap();
+    let inside = outside(PLAIN.replace("a.csv", "none/a.csv"));
+    assert!(inside.contains("cannot be opened"), "{inside}");
 }

@@ -63,6 +63,8 @@ mod own_logs;
 mod read_campaign;
 mod run_spec;
 #[cfg(test)]
+mod run_spec_tests;
+#[cfg(test)]
 mod several_logs_tests;
 mod several_runs;
 mod speed_check;

@@ -2,11 +2,13 @@
 
 use std::path::{Component, Path, PathBuf};
 
+use lissom_core::record::Command;
+
 use super::campaign_drive;
 use super::campaign_error::CampaignError;
-use super::campaign_file::{AnalysisOptions, CampaignFile, ReadOptions};
+use super::campaign_file::{AnalysisOptions, CampaignFile, DriveConstants, ReadOptions};
 use super::campaign_load::{self, CampaignLoad};
-use super::campaign_signals::signals;
+use super::campaign_signals::{Signals, signals};
 use super::load_runs::load;
 use super::memory_logs::{LogPlaces, MemoryLogs};
 use super::own_logs::logs_of_run;
@@ -77,19 +79,19 @@ impl CampaignReader {
     /// [`Error::Config`] and [`Error::Campaign`] for signals and runs.
     pub fn run_files(self) -> Result<Vec<PathBuf>, Error> {
         let source = self.source?;
-        let document = source.parse()?;
-        let root = source.root(&document);
-        let signals = signals(&root.need("signals")?.table()?)?;
-        let mut files = Vec::new();
-        for spec in runs(&root.need("runs")?, None)? {
-            for log in logs_of_run(&signals, &spec) {
-                let file = LogPath::of(&log).file;
-                if !files.contains(&file) {
-                    files.push(file);
-                }
-            }
+        files_of_runs(&source.root(&source.parse()?))
+    }
+
+    /// Reads the description with its `arm.toml`, and no log.
+    ///
+    /// # Errors
+    /// Those of [`read`](Self::read) for the description.
+    pub fn check(self) -> Result<(), Error> {
+        let source = self.source?;
+        if self.confined {
+            confine(&source)?;
         }
-        Ok(files)
+        described(&source, &self.only).map(|_| ())
     }
 
     /// Sets limits for reading.
@@ -130,15 +132,26 @@ pub fn read_campaign_like(path: &Path, log: &Path) -> Result<CampaignFile, Error
     CampaignReader::of_file(path).only(log).read()
 }
 
+/// The files of the runs, each once.
+fn files_of_runs(root: &Table<'_>) -> Result<Vec<PathBuf>, Error> {
+    let signals = signals(&root.need("signals")?.table()?)?;
+    let mut files = Vec::new();
+    for spec in runs(&root.need("runs")?, None)? {
+        for log in logs_of_run(&signals, &spec) {
+            let file = LogPath::of(&log).file;
+            if !files.contains(&file) {
+                files.push(file);
+            }
+        }
+    }
+    Ok(files)
+}
+
 /// Refuses a campaign that names files outside of its folder.
 fn confine(source: &Source) -> Result<(), Error> {
     let document = source.parse()?;
     let root = source.root(&document);
-    let signals = signals(&root.need("signals")?.table()?)?;
-    let mut files = Vec::new();
-    for spec in runs(&root.need("runs")?, None)? {
-        files.extend(logs_of_run(&signals, &spec).iter().map(|log| LogPath::of(log).file));
-    }
+    let mut files = files_of_runs(&root)?;
     if let Some(drive) = root.get("drive").map(|value| value.table()).transpose()?
         && let Some(arm) = drive.get("arm")
     {
@@ -151,12 +164,18 @@ fn confine(source: &Source) -> Result<(), Error> {
     }
 }
 
-fn read(
-    source: &Source,
-    only: &[PathBuf],
-    places: LogPlaces<'_>,
-    options: &ReadOptions,
-) -> Result<CampaignFile, Error> {
+/// A campaign without the contents of its logs.
+struct Described {
+    signals: Signals,
+    command: Command,
+    known: DriveConstants,
+    on_motor: CampaignLoad,
+    analysis: AnalysisOptions,
+    runs: Vec<RunSpec>,
+}
+
+/// Reads the description; `only` logs take the place of its runs.
+fn described(source: &Source, only: &[PathBuf]) -> Result<Described, Error> {
     let document = source.parse()?;
     let root = source.root(&document);
     root.only(&["signals", "drive", "load", "analysis", "runs"])?;
@@ -173,12 +192,23 @@ fn read(
         Some(value) => analysis(&value.table()?)?,
         None => (AnalysisOptions::default(), None),
     };
-    let (places, runs) = if only.is_empty() {
-        (places, runs(&root.need("runs")?, skip_s)?)
+    let runs = if only.is_empty() {
+        runs(&root.need("runs")?, skip_s)?
     } else {
-        let here = LogPlaces { folder: Path::new(""), ..places };
-        (here, only.iter().map(|log| RunSpec::of_log(log, skip_s)).collect())
+        only.iter().map(|log| RunSpec::of_log(log, skip_s)).collect()
     };
+    Ok(Described { signals, command, known, on_motor, analysis, runs })
+}
+
+fn read(
+    source: &Source,
+    only: &[PathBuf],
+    places: LogPlaces<'_>,
+    options: &ReadOptions,
+) -> Result<CampaignFile, Error> {
+    let Described { signals, command, known, on_motor, analysis, runs } = described(source, only)?;
+    let places =
+        if only.is_empty() { places } else { LogPlaces { folder: Path::new(""), ..places } };
     let campaign = load(places, &signals, command, &runs, options)?;
     let campaign = match on_motor {
         CampaignLoad { mgl_nm: Some(mgl_nm), .. } => campaign.with_known_gravity(mgl_nm)?,

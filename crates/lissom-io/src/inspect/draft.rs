@@ -285,12 +285,25 @@ impl Signals<'_> {
 
     fn time(&self) -> Result<Line, DraftError> {
         if let Some(sample_time) = &self.said.sample_time {
-            return Ok(Line::said(format!("sample_time = {}", quoted(sample_time))));
+            return Ok(self.sample_time(sample_time));
         }
         Ok(match self.picks.pick(Role::Time, self.said.time.as_ref())? {
             Ok(picked) => self.line("time", Role::Time, &picked, &[]),
             Err(error) => Line::missing("time = { column = \"?\", unit = \"s\" }", error),
         })
+    }
+
+    /// The line for a sample time, which says so if time stamps are then not used.
+    fn sample_time(&self, sample_time: &str) -> Line {
+        let text = format!("sample_time = {}", quoted(sample_time));
+        let Some(stamps) = self.log.roles.of(Role::Time) else { return Line::said(text) };
+        let channel = &self.log.channels[stamps.channel];
+        let step = self.log.clock.as_ref().map_or_else(String::new, |clock| {
+            let unit = channel.unit.as_ref().map_or("", |unit| unit.text.as_str());
+            format!(", whose usual step is {:.3e} {unit}", clock.step)
+        });
+        let why = format!("in place of the time stamps of {}{}", channel.label(), step.trim_end());
+        Line::taken(text, why)
     }
 
     fn run(&self) -> Result<Option<Line>, DraftError> {

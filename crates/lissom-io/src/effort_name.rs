@@ -1,15 +1,16 @@
-//! Names of efforts.
+//! Names of efforts in files.
 
-use lissom::identify::Effort;
+use lissom_core::identify::Effort;
 use serde::{Deserialize, Serialize};
 
 /// Effort of the output-error method.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Default, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum EffortName {
     /// None.
     Quick,
     /// About 10 s.
+    #[default]
     Normal,
     /// Minutes.
     Thorough,
