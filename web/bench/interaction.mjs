@@ -1,6 +1,6 @@
 // How long a zoom takes in lissom studio, for a log of 10⁷ samples and, as the baseline, one of 10⁴:
 // LISSOM=lissom node bench/interaction.mjs [ZOOMS]
-// The first frame after the zoom has the points that are there; the points of the part follow when the axis rests (40 ms).
+// The first frame after the zoom has the points that are there; the points of the part follow.
 import { closeSync, mkdtempSync, openSync, rmSync, writeSync } from "node:fs";
 import { tmpdir } from "node:os";
 import { join } from "node:path";

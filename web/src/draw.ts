@@ -168,6 +168,17 @@ function bars(
       ctx.lineTo(px + 3 * ratio, end);
     }
   });
+  trace.y.forEach((y, k) => {
+    const [left, right] = [trace.left[k], trace.right[k]];
+    if (y == null || left == null || right == null) return;
+    const py = toY(y);
+    ctx.moveTo(toX(left), py);
+    ctx.lineTo(toX(right), py);
+    for (const end of [toX(left), toX(right)]) {
+      ctx.moveTo(end, py - 3 * ratio);
+      ctx.lineTo(end, py + 3 * ratio);
+    }
+  });
   ctx.stroke();
 }
 

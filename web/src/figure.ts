@@ -6,6 +6,7 @@ import { type PanelView, draw } from "./draw";
 import { csv, fileName, save } from "./export";
 import type { FigureData } from "./figure_data";
 import { Legend, entries } from "./legend";
+import type { Follower, Links } from "./links";
 import { type Range, padded, rangeX, rangeY } from "./range";
 import { tables } from "./table";
 import { type UnitChoice, digits, shownAxis, shownTrace, unitOf } from "./units";
@@ -16,14 +17,22 @@ const [ALONE, STACKED] = [300, 210];
 const LABELS = 48;
 /** Smallest part of the axis that can be shown. */
 const ZOOM_MOST = 1e-6;
-/** Time for which an axis must rest before its points are asked for again [ms]. */
-const REST_MS = 40;
 let figures = 0;
 
-/** Gives the points of a part of the horizontal axis, for so many pixels. */
-export type Refine = (range: Range, pixels: number) => Promise<FigureData>;
+/** Gives the points of a part of the horizontal axis, for so many pixels; null if there are none. */
+export type Refine = (range: Range, pixels: number) => Promise<FigureData | null>;
 
-export class Figure {
+/** What a figure can have in addition to its data. */
+export interface Extras {
+  /** Gives the points of the part that is shown; the horizontal axis must then have one unit. */
+  readonly refine?: Refine;
+  /** The part that is shown at first; all if absent. */
+  readonly first?: Range | null;
+  /** The figures of the page that can be linked. */
+  readonly links?: Links;
+}
+
+export class Figure implements Follower {
   private data: FigureData;
   private readonly choice: UnitChoice;
   private readonly legend: Legend;
@@ -40,24 +49,28 @@ export class Figure {
   /** What ends with the figure. */
   private readonly ends: (() => void)[] = [];
 
-  private timer = 0;
   private knowsFull = false;
-  private asked = 0;
+  /** Whether the points are not those of what is shown, whether they are asked for, and whether the figure has ended. */
+  private outdated = false;
+  private isAsking = false;
+  private hasEnded = false;
 
-  /**
-   * `picture` is the same figure as SVG. With `refine` the points are those of the part that is shown; the horizontal axis
-   * must then have one unit.
-   */
+  private readonly refine: Refine | null;
+  private first: Range | null;
+  private readonly links: Links | null;
+
+  /** `picture` is the same figure as SVG. */
   constructor(
     place: HTMLElement,
     data: FigureData,
     choice: UnitChoice,
     picture: Element | null,
-    private readonly refine: Refine | null = null,
-    /** The part that is shown at first; all if absent. */
-    private first: Range | null = null,
+    extras: Extras = {},
   ) {
     [this.data, this.choice] = [data, choice];
+    this.refine = extras.refine ?? null;
+    this.links = (data.linked && extras.links) || null;
+    this.first = extras.first ?? (data.linked && this.links ? this.links.shownBy(data.linked) : null);
     this.legend = new Legend(entries(data), () => this.restore());
     this.reset = this.button("All", "show the whole axis (double click, or key 0)", () => this.show(this.full));
     const head = document.createElement("div");
@@ -92,6 +105,7 @@ export class Figure {
     tools.append(this.readout);
     place.append(head, this.legend.element, this.frames, tools, this.table());
     this.readout.setAttribute("aria-live", "off");
+    if (data.linked && this.links) this.ends.push(this.links.join(data.linked, this));
     this.ends.push(choice.listen(() => this.restore(true)));
     const sizes = new ResizeObserver(() => {
       if (Math.abs(this.frames.clientWidth - this.width) >= 1) this.restore(true);
@@ -111,8 +125,7 @@ export class Figure {
 
   /** Ends the figure: its place is free for another one. */
   end(): void {
-    clearTimeout(this.timer);
-    this.asked++;
+    this.hasEnded = true;
     for (const end of this.ends) end();
     for (const plot of this.plots) plot.destroy();
     this.plots = [];
@@ -130,16 +143,21 @@ export class Figure {
     this.fit();
   }
 
-  /** Asks for the points of what is shown, once the axis rests. */
-  private refineSoon(): void {
+  /** Asks for the points of what is shown, one question at a time. */
+  private async refineSoon(): Promise<void> {
     const { refine } = this;
-    if (!refine) return;
-    clearTimeout(this.timer);
-    this.timer = window.setTimeout(async () => {
-      const asked = ++this.asked;
-      const data = await refine(this.shown, Math.ceil(this.width));
-      if (asked === this.asked) this.take(data);
-    }, REST_MS);
+    this.outdated = true;
+    if (!refine || this.isAsking) return;
+    this.isAsking = true;
+    try {
+      while (this.outdated && !this.hasEnded) {
+        this.outdated = false;
+        const data = await refine(this.shown, Math.ceil(this.width));
+        if (data && !this.outdated && !this.hasEnded) this.take(data);
+      }
+    } finally {
+      this.isAsking = false;
+    }
   }
 
   private button(text: string, title: string, action: () => void): HTMLButtonElement {
@@ -179,7 +197,7 @@ export class Figure {
   /** Draws again: all of it with `anew`, and else only what is within the frames. */
   private restore(anew = false): void {
     if (anew || this.plots.length === 0) this.build();
-    else this.show(this.shown);
+    else this.move(this.shown);
   }
 
   private build(): void {
@@ -198,8 +216,9 @@ export class Figure {
     // Points that are asked for later are those of a part.
     if (!this.refine || !this.knowsFull) this.full = x.range ?? padded(all, this.log, lines && !this.log ? 0 : 0.04);
     this.knowsFull = true;
-    this.shown = this.first ? this.within(this.first) : this.whole(part);
-    if (this.first) this.refineSoon();
+    const first = this.first && this.within(this.first);
+    this.shown = first && first[0] < first[1] ? first : this.whole(part);
+    if (first) void this.refineSoon();
     this.first = null;
     const last = this.views.length - 1;
     this.plots = this.views.map((_, k) => this.plot(k, k === last));
@@ -281,15 +300,28 @@ export class Figure {
     if (min !== this.shown[0] || max !== this.shown[1]) this.show([min, max]);
   }
 
-  /** Shows a part of the horizontal axis in all panels. */
+  /** Shows a part of the horizontal axis in all panels, and in the figures that are linked. */
   private show(range: Range): void {
+    if (!this.move(range) || !this.data.linked) return;
+    const isAll = this.shown[0] === this.full[0] && this.shown[1] === this.full[1];
+    this.links?.moved(this.data.linked, this, isAll ? null : this.shown);
+  }
+
+  follow(range: Range | null): void {
+    if (this.plots.length > 0) this.move(range ?? this.full);
+  }
+
+  /** Shows a part of the horizontal axis; false if it is too small. */
+  private move(asked: Range): boolean {
+    const range = this.within(asked);
     const [low, high] = this.full;
     const span = this.log ? Math.log10(high / low) : high - low;
     const wanted = this.log ? Math.log10(range[1] / range[0]) : range[1] - range[0];
-    if (!(wanted > ZOOM_MOST * span)) return;
-    this.shown = this.within(range);
+    if (!(wanted > ZOOM_MOST * span)) return false;
+    this.shown = range;
     this.fit();
-    this.refineSoon();
+    void this.refineSoon();
+    return true;
   }
 
   /** A range within the whole axis. */

@@ -48,6 +48,9 @@ export interface TraceData {
   readonly y: readonly (number | null)[];
   readonly low?: readonly (number | null)[];
   readonly high?: readonly (number | null)[];
+  /** Ends of error bars of the abscissae. */
+  readonly left?: readonly (number | null)[];
+  readonly right?: readonly (number | null)[];
   /** Places of points with which something is wrong. */
   readonly flagged?: readonly number[];
   /** Number of points before some were left out. */
@@ -80,6 +83,8 @@ export interface FigureData {
   readonly title: string;
   readonly subtitle: string | null;
   readonly x: AxisData;
+  /** Figures with the same name here show the same part of the horizontal axis. */
+  readonly linked?: string;
   readonly panels: readonly PanelData[];
   readonly skipped: number;
 }

@@ -2,6 +2,7 @@
 
 import { Figure } from "./figure";
 import { type StoredChoices, type StoredFigure, unpacked } from "./figure_data";
+import { Links } from "./links";
 import { UnitChoice, type Units } from "./units";
 
 function chooser<K extends keyof Units>(choice: UnitChoice, name: string, key: K, values: readonly Units[K][]): HTMLElement {
@@ -31,7 +32,7 @@ function figuresOf(stored: Stored): readonly StoredFigure[] {
 }
 
 /** Makes a figure interactive. */
-function enliven(place: Element, stored: Stored, choice: UnitChoice): void {
+function enliven(place: Element, stored: Stored, choice: UnitChoice, links: Links): void {
   const live = document.createElement("div");
   live.className = "live";
   const picture = place.querySelector(".plot > svg");
@@ -50,19 +51,20 @@ function enliven(place: Element, stored: Stored, choice: UnitChoice): void {
       live.replaceChildren();
       // Only of the first figure is there a picture.
       const own = select.selectedIndex === 0 ? picture : null;
-      shown = chosen ? new Figure(live, unpacked(chosen.figure), choice, own) : null;
+      shown = chosen ? new Figure(live, unpacked(chosen.figure), choice, own, { links }) : null;
     };
     select.addEventListener("change", show);
     show();
   } else {
     place.prepend(live);
-    new Figure(live, unpacked(stored), choice, picture);
+    new Figure(live, unpacked(stored), choice, picture, { links });
   }
 }
 
 /** Makes the figures of a report interactive, those far below when the reader comes near: the page is there at once. */
 export function enlivenReport(report: ParentNode): void {
   const choice = new UnitChoice();
+  const links = new Links(choice);
   const found: [HTMLElement, Stored][] = [];
   for (const script of report.querySelectorAll('script[type="application/json"].figure-data')) {
     const figure = script.closest("figure");
@@ -83,7 +85,7 @@ export function enlivenReport(report: ParentNode): void {
       for (const entry of all.filter((entry) => entry.isIntersecting)) {
         observer.unobserve(entry.target);
         const stored = found.find(([figure]) => figure === entry.target)?.[1];
-        if (stored) enliven(entry.target, stored, choice);
+        if (stored) enliven(entry.target, stored, choice, links);
       }
     },
     { rootMargin: "600px" },

@@ -63,6 +63,8 @@ export interface ShownTrace {
   readonly y: readonly (number | null)[];
   readonly low: readonly (number | null)[];
   readonly high: readonly (number | null)[];
+  readonly left: readonly (number | null)[];
+  readonly right: readonly (number | null)[];
   readonly flagged: ReadonlySet<number>;
   /** Whether the abscissae do not fall. */
   readonly rises: boolean;
@@ -78,6 +80,8 @@ export function shownTrace(trace: TraceData, x: AxisData, panel: PanelData, unit
   const ofY = converter(panel.y, units);
   const each = (values: readonly (number | null)[] | undefined) =>
     (values ?? []).map((value) => (value === null ? null : ofY(value)));
+  const across = (values: readonly (number | null)[] | undefined) =>
+    (values ?? []).map((value) => (value === null ? null : ofX(value)));
   let xs: number[] = trace.x.map(ofX);
   let ys = each(trace.y);
   let [lows, highs] = [each(trace.low), each(trace.high)];
@@ -103,7 +107,8 @@ export function shownTrace(trace: TraceData, x: AxisData, panel: PanelData, unit
     }
   }
   const rises = xs.every((value, k) => k === 0 || value >= (xs[k - 1] ?? value));
-  return { of: trace, x: xs, y: ys, low: lows, high: highs, flagged: new Set(flagged), rises };
+  const [left, right] = [across(trace.left), across(trace.right)];
+  return { of: trace, x: xs, y: ys, low: lows, high: highs, left, right, flagged: new Set(flagged), rises };
 }
 
 /** What is in the last parentheses of a label. */

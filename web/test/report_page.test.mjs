@@ -80,6 +80,33 @@ test("figures zoom, and show their values in the chosen units", async () => {
   await close();
 });
 
+test("figures of one kind move together", async () => {
+  const { page, said, close } = await opened();
+  const [motor, tip] = [figure(page, "Motor: angle per current"), figure(page, "Beam: angle of tip per motor angle")];
+  await tip.scrollIntoViewIfNeeded();
+  await tip.locator("canvas").first().waitFor();
+  await motor.scrollIntoViewIfNeeded();
+  const left = async (of) => {
+    const box = await of.locator(".u-over").first().boundingBox();
+    await page.mouse.move(box.x + 1, box.y + 20);
+    return Number.parseFloat(await of.locator("output").textContent());
+  };
+  const before = await left(tip);
+  await motor.locator(".frames").focus();
+  await page.keyboard.press("+");
+  await page.keyboard.press("+");
+  await tip.scrollIntoViewIfNeeded();
+  const after = await left(tip);
+  assert.ok(after > 1.5 * before, `${before} ${after}`);
+  await motor.scrollIntoViewIfNeeded();
+  assert.ok(Math.abs((await left(motor)) / after - 1) < 0.05);
+  await motor.getByRole("button", { name: "All" }).click();
+  await tip.scrollIntoViewIfNeeded();
+  assert.ok(Math.abs((await left(tip)) / before - 1) < 0.05);
+  assert.deepEqual(said, []);
+  await close();
+});
+
 test("figures obey the keyboard, hide series, and have tables and files", async () => {
   const { page, said, close } = await opened({ acceptDownloads: true });
   const bode = figure(page, "Motor: angle per current");

@@ -120,6 +120,53 @@ test("a bad file is refused with the reason, and nothing is added", async (t) =>
   assert.deepEqual(said, []);
 });
 
+test("thirty runs are opened, identified and shown one by one", async (t) => {
+  const server = await studio(chromium, t);
+  const { page, said } = await server.page();
+  await open(page, ...Array.from({ length: 30 }, (_, k) => csv(`run-${k + 1}.csv`, { rows: 2500, omega: 2 + 0.4 * k })));
+  await page.locator("#use-30").waitFor({ timeout: 60_000 });
+  await page.locator("#identify:not([disabled])").waitFor();
+  await identified(page);
+  await page.locator(".report h1", { hasText: "run-1.csv and 29 more" }).waitFor();
+  const motion = page.locator("figure", { has: page.locator("select option:nth-child(30)") }).first();
+  await motion.scrollIntoViewIfNeeded();
+  await motion.locator("canvas").first().waitFor();
+  await motion.locator("select").selectOption({ index: 29 });
+  await motion.locator("canvas").first().waitFor();
+  assert.deepEqual(said, []);
+});
+
+test("what the server does not get is sent again", async (t) => {
+  const server = await studio(chromium, t);
+  const { page } = await server.page();
+  await open(page, csv("a.csv"));
+  await page.locator("#use-1").waitFor();
+  await page.route("**/api/setup", (route) => route.abort());
+  await page.locator("#effort").selectOption("quick");
+  await page.getByText("lissom studio does not answer").waitFor();
+  assert.equal(await page.locator("#effort").inputValue(), "quick");
+  await page.unroute("**/api/setup");
+  await page.locator("#again-send").click();
+  await page.locator("#again-send").waitFor({ state: "detached" });
+  await page.reload();
+  await page.locator("#effort").waitFor();
+  assert.equal(await page.locator("#effort").inputValue(), "quick");
+});
+
+test("Back leads to the tab before, and a result is removed by two presses", async (t) => {
+  const server = await studio(chromium, t);
+  const { page, said } = await server.page();
+  await open(page, csv("a.csv"));
+  await identified(page);
+  await page.goBack();
+  await page.locator("#use-1").waitFor();
+  await page.goForward();
+  await page.locator("#remove-result").click();
+  await page.locator("#remove-result", { hasText: "Remove for good?" }).click();
+  await page.getByText("There is no result yet").waitFor();
+  assert.deepEqual(said, []);
+});
+
 test("a search is stopped with the best so far, and two results are compared", async (t) => {
   const server = await studio(chromium, t);
   const { page, said } = await server.page();
@@ -137,7 +184,7 @@ test("a search is stopped with the best so far, and two results are compared", a
   await page.locator("#comparison").waitFor();
   const table = await page.locator("#comparison").textContent();
   assert.match(table, /Coulomb friction/);
-  assert.match(await page.locator("section[aria-label=Compare]").textContent(), /Settings that differ: effort, left out/);
+  assert.match(await page.locator("section[aria-label=Compare]").textContent(), /Settings that differ: effort \(thorough → quick\), left out/);
   assert.deepEqual(said, []);
 });
 

@@ -56,7 +56,7 @@ fn one_steady_sine_does_not_tell_the_dampings_apart() {
 }
 
 /// The report's arm with its damping within the beam: the models respond as the arm does, where rational functions
-/// with damping against the frame cannot.
+/// with damping against the frame cannot. Their standard errors are those of the response.
 #[test]
 fn models_have_the_damping_that_the_arm_has() {
     let mut rig = lissom_testmodels::report_rig(Some(14));
@@ -75,6 +75,12 @@ fn models_have_the_damping_that_the_arm_has() {
         let exact = rig.arm.motor_response(omega_rad_s);
         let model = models.motor.as_ref().unwrap().response(omega_rad_s);
         assert!((model / exact - 1.0).norm() < 3e-3, "{omega_rad_s}: {model}, exact {exact}");
+        let error = models.motor_covariance.as_ref().unwrap();
+        let error = error.of_response(models.motor.as_ref().unwrap(), omega_rad_s).unwrap();
+        let departs = (models.motor_response(omega_rad_s).unwrap() / exact).ln();
+        let sizes = [departs.re / error.relative_magnitude, departs.im / error.phase_rad];
+        assert!(sizes.iter().all(|z| z.abs() < 4.0), "{omega_rad_s}: {sizes:?} of {error:?}");
+        assert!(error.relative_magnitude < 3e-3 && error.phase_rad < 3e-3, "{error:?}");
         let exact_tip = rig.arm.tip_response(omega_rad_s)[0];
         let tip = models.tips[0].function.response(omega_rad_s);
         assert!((tip / exact_tip - 1.0).norm() < 3e-3, "{omega_rad_s}: {tip}, exact {exact_tip}");

@@ -49,6 +49,18 @@ pub(crate) fn of_file(path: &Path) -> Result<Opened, FormatError> {
     Ok(Opened::Plain(Source::File { file: Arc::new(file), length: metadata.len() }))
 }
 
+/// Whether a compressed file expands to more than so many bytes. It is expanded as a stream: that takes no memory. A damaged
+/// one is reported when it is read.
+///
+/// # Errors
+/// If the file cannot be read.
+pub fn expands_beyond(path: &Path, most_bytes: u64) -> std::io::Result<bool> {
+    let Ok(Opened::Compressed(expanded)) = of_file(path) else { return Ok(false) };
+    let counted =
+        std::io::copy(&mut expanded.take(most_bytes.saturating_add(1)), &mut std::io::sink());
+    Ok(counted.is_ok_and(|bytes| bytes > most_bytes))
+}
+
 /// Bytes in memory.
 pub(crate) fn of_bytes(bytes: Vec<u8>) -> Result<Opened, FormatError> {
     if !is_compressed(&bytes) {

@@ -75,6 +75,7 @@ mod wpilog;
 mod xlsx;
 mod zip;
 
+pub use bytes::expands_beyond;
 pub use channel_ref::{ChannelRef, bare_name};
 pub use format::Format;
 pub use format_error::FormatError;

@@ -31,6 +31,8 @@ const TOP_AXIS_HEIGHT: f64 = 42.0;
 const LEAST_DB: f64 = 1.0;
 /// The least phase range in degrees.
 const LEAST_DEGREES: f64 = 10.0;
+/// Name of the link of all frequency axes.
+const FREQUENCIES: &str = "frequency";
 /// Label of the lower axis.
 const PHASE_LABEL: &str = "Phase (°)";
 
@@ -113,16 +115,20 @@ impl BodePlot {
                 let std = std.filter(|_| series.style == Style::PointsWithBars);
                 let flagged = series.flagged.as_ref().is_some_and(|f| f[k]);
                 let (x, y) = (omega / per_unit, decibels(size));
-                magnitude.push(Mark {
-                    x,
-                    y,
-                    bar: std.map(|s| decibel_bar(size, s)),
-                    flagged,
-                    after_gap,
-                });
+                let band = series.band.as_ref().map(|band| band[k]);
+                let band = band.filter(|half| half.iter().all(|h| h.is_finite()));
+                let bar = match (std, band) {
+                    (Some(std), _) => Some((decibel_bar(size, std), degree_bar(size, std))),
+                    (None, Some([relative, rad])) => {
+                        let half = decibels(1.0_f64.exp()) * relative;
+                        Some(((y - half, y + half), rad.to_degrees()))
+                    }
+                    (None, None) => None,
+                };
+                let mark = Mark { x, y, bar: bar.map(|b| b.0), across: None, flagged, after_gap };
+                magnitude.push(mark);
                 // The bar is relative until the branch is known.
-                let turn = std.map(|s| degree_bar(size, s)).map(|d| (-d, d));
-                phase.push(Mark { x, y: 0.0, bar: turn, flagged, after_gap });
+                phase.push(Mark { y: 0.0, bar: bar.map(|(_, d)| (-d, d)), ..mark });
                 track.x.push(omega.log10());
                 track.degrees.push(value.im.atan2(value.re).to_degrees());
                 track.doubtful.push(flagged);
@@ -229,11 +235,13 @@ impl BodePlot {
                 for (p, marks) in
                     prepared.iter().zip(&marks).filter(|(p, _)| p.series.style == Style::Line)
                 {
+                    panel.ribbon(canvas, marks, p.series.role.colour());
                     panel.curve(canvas, marks, p.series.role, false);
                 }
-                for (p, marks) in prepared.iter().zip(&marks) {
+                let points = prepared.iter().zip(&marks);
+                for (p, marks) in points.filter(|(p, _)| p.series.style != Style::Line) {
                     panel.bars(canvas, marks, p.series.role);
-                    panel.points(canvas, marks, p.series.role, p.series.style != Style::Line);
+                    panel.points(canvas, marks, p.series.role, true);
                 }
             });
             panel.frame(&mut canvas);
@@ -293,6 +301,7 @@ impl Figure for BodePlot {
             title: self.title.clone(),
             subtitle: self.subtitle.clone(),
             x: AxisData::of(&frequency),
+            linked: Some(FREQUENCIES.to_owned()),
             panels: vec![
                 Self::panel_data(&decibels, &magnitude, points),
                 Self::panel_data(&degrees, &of(&|p| p.phase.clone()), points),

@@ -45,6 +45,8 @@ pub struct Series {
     /// The standard error of each response as a distance in the complex plane; a value that is not positive draws no
     /// bar.
     pub std: Option<Vec<f64>>,
+    /// The half width of the band of a line at each frequency: relative for the magnitude, in rad for the phase.
+    pub band: Option<Vec<[f64; 2]>>,
     /// Points to draw grey and hollow, because something is wrong with them.
     pub flagged: Option<Vec<bool>>,
 }
@@ -58,13 +60,29 @@ impl Series {
         omega_rad_s: Vec<f64>,
         response: Vec<Complex64>,
     ) -> Self {
-        Self { label: label.into(), role, style, omega_rad_s, response, std: None, flagged: None }
+        Self {
+            label: label.into(),
+            role,
+            style,
+            omega_rad_s,
+            response,
+            std: None,
+            band: None,
+            flagged: None,
+        }
     }
 
     /// Adds standard errors.
     #[must_use]
     pub fn with_std(mut self, std: Vec<f64>) -> Self {
         self.std = Some(std);
+        self
+    }
+
+    /// Adds the half widths of a band around a line: relative for the magnitude, in rad for the phase.
+    #[must_use]
+    pub fn with_band(mut self, half_widths: Vec<[f64; 2]>) -> Self {
+        self.band = Some(half_widths);
         self
     }
 
@@ -80,6 +98,7 @@ impl Series {
         let lengths = [
             ("response", Some(self.response.len())),
             ("std", self.std.as_ref().map(Vec::len)),
+            ("band", self.band.as_ref().map(Vec::len)),
             ("flagged", self.flagged.as_ref().map(Vec::len)),
         ];
         let expected = self.omega_rad_s.len();

@@ -68,6 +68,8 @@ pub(crate) enum Shape {
     Lines { lines: Vec<[(f64, f64); 2]>, stroke: Stroke },
     /// A broken line.
     Polyline { points: Vec<(f64, f64)>, stroke: Stroke },
+    /// A filled area within straight lines.
+    Area { corners: Vec<(f64, f64)>, fill: Colour, opacity: f64 },
     /// Markers of one kind; `stroke` is their outline.
     Markers { marker: Marker, places: Vec<(f64, f64)>, fill: Colour, stroke: Stroke },
     /// One line of text with its baseline at `at`.
@@ -115,6 +117,14 @@ impl Canvas {
         if !points.is_empty() {
             let points = points.iter().copied().map(near_point).collect();
             self.shapes.push(Shape::Polyline { points, stroke });
+        }
+    }
+
+    /// Adds a filled area within straight lines.
+    pub(crate) fn area(&mut self, corners: &[(f64, f64)], fill: Colour, opacity: f64) {
+        if corners.len() > 2 {
+            let corners = corners.iter().copied().map(near_point).collect();
+            self.shapes.push(Shape::Area { corners, fill, opacity });
         }
     }
 

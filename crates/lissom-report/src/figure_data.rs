@@ -22,6 +22,9 @@ pub struct FigureData {
     pub subtitle: Option<String>,
     /// The horizontal axis of all panels.
     pub x: AxisData,
+    /// Figures with the same name here show the same part of the horizontal axis.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub linked: Option<String>,
     /// The panels, from the top.
     pub panels: Vec<PanelData>,
     /// Points that cannot be drawn.
@@ -78,6 +81,12 @@ pub struct TraceData {
     /// The upper ends of error bars.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub high: Vec<Option<f64>>,
+    /// The left ends of error bars of the abscissae.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub left: Vec<Option<f64>>,
+    /// The right ends of error bars of the abscissae.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub right: Vec<Option<f64>>,
     /// Places of points with which something is wrong.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub flagged: Vec<usize>,
@@ -175,24 +184,29 @@ impl TraceData {
             ..Self::default()
         };
         let has_bars = marks.iter().any(|mark| mark.bar.is_some());
-        let mut put = |x: f64, y: Option<f64>, bar: Option<(f64, f64)>| {
+        let has_bars_across = marks.iter().any(|mark| mark.across.is_some());
+        let finite = |end: f64| end.is_finite().then(|| short(end));
+        let mut put = |x: f64, y: Option<f64>, bar: Option<(f64, f64)>, across| {
             trace.x.push(short(x));
             trace.y.push(y.map(short));
             if has_bars {
-                trace.low.push(bar.map(|(low, _)| low).filter(|low| low.is_finite()).map(short));
-                trace
-                    .high
-                    .push(bar.map(|(_, high)| high).filter(|high| high.is_finite()).map(short));
+                trace.low.push(bar.and_then(|(low, _)| finite(low)));
+                trace.high.push(bar.and_then(|(_, high)| finite(high)));
+            }
+            if has_bars_across {
+                let across: Option<(f64, f64)> = across;
+                trace.left.push(across.and_then(|(left, _)| finite(left)));
+                trace.right.push(across.and_then(|(_, right)| finite(right)));
             }
         };
         let mut flagged = Vec::new();
         let mut place = 0;
         for (k, mark) in kept.iter().enumerate() {
             if is_line && mark.after_gap && k > 0 {
-                put(mark.x, None, None);
+                put(mark.x, None, None, None);
                 place += 1;
             }
-            put(mark.x, Some(mark.y), mark.bar);
+            put(mark.x, Some(mark.y), mark.bar, mark.across);
             if mark.flagged {
                 flagged.push(place);
             }
@@ -280,7 +294,7 @@ mod tests {
     use super::*;
 
     fn mark(x: f64, y: f64) -> Mark {
-        Mark { x, y, bar: None, flagged: false, after_gap: false }
+        Mark { x, y, bar: None, across: None, flagged: false, after_gap: false }
     }
 
     #[test]

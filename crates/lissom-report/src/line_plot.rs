@@ -37,6 +37,8 @@ pub struct LinePlot {
     pub title: String,
     /// A line below the title.
     pub subtitle: Option<String>,
+    /// Interactive figures with the same name here show the same part of the horizontal axis.
+    pub linked: Option<String>,
     /// The horizontal axis.
     pub x: Axis,
     /// The vertical axis.
@@ -53,6 +55,13 @@ impl LinePlot {
     /// A plot without traces.
     pub fn new(title: impl Into<String>, x: Axis, y: Axis) -> Self {
         Self { title: title.into(), x, y, ..Self::default() }
+    }
+
+    /// Links the horizontal axis with that of all figures that are linked by the same name.
+    #[must_use]
+    pub fn linked(mut self, name: impl Into<String>) -> Self {
+        self.linked = Some(name.into());
+        self
     }
 
     /// Adds a line below the title.
@@ -328,6 +337,7 @@ pub(crate) fn sheet_data(
             title: title.to_owned(),
             subtitle: subtitle.map(str::to_owned),
             x: AxisData::of(&last.x),
+            linked: None,
             panels,
             skipped: all,
         }),
@@ -339,7 +349,8 @@ impl Sealed for LinePlot {}
 
 impl Figure for LinePlot {
     fn data(&self, points: usize) -> Result<FigureData, FigureError> {
-        sheet_data(&self.title, self.subtitle.as_deref(), &[self], points)
+        let data = sheet_data(&self.title, self.subtitle.as_deref(), &[self], points)?;
+        Ok(FigureData { linked: self.linked.clone(), ..data })
     }
 
     fn to_svg(&self) -> Result<String, FigureError> {

@@ -12,6 +12,8 @@ pub(crate) struct Mark {
     pub(crate) y: f64,
     /// The ends of the error bar.
     pub(crate) bar: Option<(f64, f64)>,
+    /// The ends of the error bar of the abscissa.
+    pub(crate) across: Option<(f64, f64)>,
     pub(crate) flagged: bool,
     /// A point before this one could not be drawn: lines stop there.
     pub(crate) after_gap: bool,
@@ -65,6 +67,7 @@ mod tests {
             x: 1.0,
             y,
             bar: Some((y - half, y + half)),
+            across: None,
             flagged: false,
             after_gap: false,
         };

@@ -139,7 +139,7 @@ mod tests {
     fn marks(count: u32, y: impl Fn(u32) -> f64) -> Vec<Mark> {
         let mark = |k| {
             let x = 1.0 + f64::from(k) * 1e-3;
-            Mark { x, y: y(k), bar: None, flagged: false, after_gap: false }
+            Mark { x, y: y(k), bar: None, across: None, flagged: false, after_gap: false }
         };
         (0..count).map(mark).collect()
     }

@@ -4,7 +4,7 @@ use crate::axis::Ruler;
 use crate::canvas::{Anchor, Canvas, Rect, Stroke, TextStyle};
 use crate::font::Weight;
 use crate::marks::{Mark, thinned};
-use crate::palette::{FLAGGED, GRID, INK, MINOR_GRID, Role, WHITE};
+use crate::palette::{Colour, FLAGGED, GRID, INK, MINOR_GRID, Role, SHADE, WHITE};
 use crate::text_fit::{shorten, width};
 use lissom_text::power_of_ten;
 
@@ -189,6 +189,18 @@ impl Panel {
         }
     }
 
+    /// The area between the ends of the bars of a line, broken at gaps and where there is no bar.
+    pub(crate) fn ribbon(&self, canvas: &mut Canvas, marks: &[Mark], colour: Colour) {
+        for run in marks.chunk_by(|a, b| a.bar.is_some() && b.bar.is_some() && !b.after_gap) {
+            let ends = run.iter().filter_map(|m| Some((m.x, m.bar?)));
+            let ends: Vec<_> = ends.collect();
+            let low = ends.iter().map(|(x, (low, _))| self.at(*x, *low));
+            let high = ends.iter().rev().map(|(x, (_, high))| self.at(*x, *high));
+            let corners: Vec<_> = low.chain(high).collect();
+            canvas.area(&corners, colour, SHADE);
+        }
+    }
+
     /// The error bars of the marks that have one.
     pub(crate) fn bars(&self, canvas: &mut Canvas, marks: &[Mark], role: Role) {
         for (flagged, colour) in [(true, FLAGGED), (false, role.colour())] {
@@ -203,6 +215,16 @@ impl Panel {
                 ]
             });
             canvas.lines(lines.collect::<Vec<_>>(), Stroke { colour, width: 1.3, dash: None });
+            let ends = marks.iter().filter(|m| m.flagged == flagged);
+            let across = ends.filter_map(|m| Some((m.y, m.across?))).flat_map(|(y, (from, to))| {
+                let ((left, y), (right, _)) = (self.at(from, y), self.at(to, y));
+                [
+                    [(left, y), (right, y)],
+                    [(left, y - CAP), (left, y + CAP)],
+                    [(right, y - CAP), (right, y + CAP)],
+                ]
+            });
+            canvas.lines(across.collect::<Vec<_>>(), Stroke { colour, width: 1.3, dash: None });
         }
     }
 

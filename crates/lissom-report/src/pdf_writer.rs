@@ -82,6 +82,11 @@ impl Sheet {
                     self.broken_line(points);
                     self.content.stroke();
                 }
+                Shape::Area { corners, fill, opacity } => {
+                    self.see_through(*fill, *opacity);
+                    self.broken_line(corners);
+                    self.content.close_path().fill_nonzero().restore_state();
+                }
                 Shape::Markers { marker, places, fill, stroke } => {
                     self.pen(*stroke, LineJoinStyle::MiterJoin);
                     self.ink(*fill);
@@ -103,6 +108,13 @@ impl Sheet {
     }
 
     fn rectangle(&mut self, rect: Rect, fill: Colour, opacity: f64) {
+        self.see_through(fill, opacity);
+        self.corners(rect);
+        self.content.fill_nonzero().restore_state();
+    }
+
+    /// Sets colour and opacity of areas, until the state is restored.
+    fn see_through(&mut self, fill: Colour, opacity: f64) {
         let percent = (f64::from(OPAQUE) * opacity).round() as u8;
         self.content.save_state();
         if percent < OPAQUE {
@@ -112,8 +124,6 @@ impl Sheet {
             self.content.set_parameters(Name(state_name(percent).as_bytes()));
         }
         self.ink(fill);
-        self.corners(rect);
-        self.content.fill_nonzero().restore_state();
     }
 
     /// Sets the look of lines, which must not change within a path.

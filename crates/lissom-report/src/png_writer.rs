@@ -56,6 +56,12 @@ impl Sheet<'_> {
                     broken_line(&mut path, points);
                     self.stroke(path.finish(), *stroke, LineJoin::Round);
                 }
+                Shape::Area { corners, fill, opacity } => {
+                    let mut path = PathBuilder::new();
+                    broken_line(&mut path, corners);
+                    path.close();
+                    self.fill(path.finish(), *fill, *opacity, self.to_pixels);
+                }
                 Shape::Markers { marker, places, fill, stroke } => {
                     let path = markers(*marker, places);
                     self.fill(path.clone(), *fill, 1.0, self.to_pixels);

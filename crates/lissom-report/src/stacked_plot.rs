@@ -37,6 +37,8 @@ pub struct StackedPlot {
     pub title: String,
     /// A line below the title.
     pub subtitle: Option<String>,
+    /// Interactive figures with the same name here show the same part of the horizontal axis.
+    pub linked: Option<String>,
     /// The plots, from the top; their horizontal axes have one scale.
     pub plots: Vec<LinePlot>,
 }
@@ -45,6 +47,13 @@ impl StackedPlot {
     /// A figure without plots.
     pub fn new(title: impl Into<String>) -> Self {
         Self { title: title.into(), ..Self::default() }
+    }
+
+    /// Links the horizontal axis with that of all figures that are linked by the same name.
+    #[must_use]
+    pub fn linked(mut self, name: impl Into<String>) -> Self {
+        self.linked = Some(name.into());
+        self
     }
 
     /// Adds a line below the title.
@@ -72,7 +81,8 @@ impl Sealed for StackedPlot {}
 impl Figure for StackedPlot {
     fn data(&self, points: usize) -> Result<FigureData, FigureError> {
         let plots: Vec<&LinePlot> = self.plots.iter().collect();
-        sheet_data(&self.title, self.subtitle.as_deref(), &plots, points)
+        let data = sheet_data(&self.title, self.subtitle.as_deref(), &plots, points)?;
+        Ok(FigureData { linked: self.linked.clone(), ..data })
     }
 
     fn to_svg(&self) -> Result<String, FigureError> {

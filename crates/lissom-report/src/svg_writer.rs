@@ -31,6 +31,11 @@ fn shapes(body: &mut String, shapes: &[Shape]) {
             Shape::Rect { rect, fill, opacity } => rectangle(body, *rect, *fill, *opacity),
             Shape::Lines { lines, stroke } => path(body, &separate(lines), *stroke),
             Shape::Polyline { points, stroke } => path(body, &connected(points), *stroke),
+            Shape::Area { corners, fill, opacity } => {
+                let path = connected(corners);
+                let _ =
+                    writeln!(body, r#"<path d="{path}z" fill="{fill}" fill-opacity="{opacity}"/>"#);
+            }
             Shape::Markers { marker, places, fill, stroke } => {
                 markers(body, *marker, places, *fill, *stroke);
             }

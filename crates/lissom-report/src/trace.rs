@@ -105,6 +105,8 @@ pub struct Trace {
     pub y: Vec<f64>,
     /// The standard error of each ordinate; a value that is not positive draws no bar.
     pub std: Option<Vec<f64>>,
+    /// The standard error of each abscissa of points with bars.
+    pub x_std: Option<Vec<f64>>,
     /// Points to draw grey and hollow, because something is wrong with them.
     pub flagged: Option<Vec<bool>>,
 }
@@ -118,7 +120,7 @@ impl Trace {
         x: Vec<f64>,
         y: Vec<f64>,
     ) -> Self {
-        Self { label: label.into(), role, style, x, y, std: None, flagged: None }
+        Self { label: label.into(), role, style, x, y, std: None, x_std: None, flagged: None }
     }
 
     /// A line without error bars or flags.
@@ -137,6 +139,13 @@ impl Trace {
         Self { std: Some(std), ..Self::new(label, role, TraceStyle::PointsWithBars, x, y) }
     }
 
+    /// Adds standard errors of the abscissae.
+    #[must_use]
+    pub fn with_x_std(mut self, std: Vec<f64>) -> Self {
+        self.x_std = Some(std);
+        self
+    }
+
     /// Adds flags.
     #[must_use]
     pub fn with_flags(mut self, flagged: Vec<bool>) -> Self {
@@ -149,6 +158,7 @@ impl Trace {
         let lengths = [
             ("y", Some(self.y.len())),
             ("std", self.std.as_ref().map(Vec::len)),
+            ("x_std", self.x_std.as_ref().map(Vec::len)),
             ("flagged", self.flagged.as_ref().map(Vec::len)),
         ];
         let expected = self.x.len();
@@ -162,13 +172,14 @@ impl Trace {
         let (mut marks, mut after_gap) = (Vec::with_capacity(expected), false);
         for (k, (x, y)) in self.x.iter().copied().zip(self.y.iter().copied()).enumerate() {
             if axes[0].admits(x) && axes[1].admits(y) {
-                let std = self
-                    .std
-                    .as_ref()
-                    .map(|s| s[k])
-                    .filter(|s| barred && *s > 0.0 && Scale::Linear.admits(*s));
+                let of = |list: &Option<Vec<f64>>| {
+                    let std = list.as_ref().map(|s| s[k]);
+                    std.filter(|s| barred && *s > 0.0 && Scale::Linear.admits(*s))
+                };
+                let bar = of(&self.std).map(|s| (y - s, y + s));
+                let across = of(&self.x_std).map(|s| (x - s, x + s));
                 let flagged = self.flagged.as_ref().is_some_and(|f| f[k]);
-                marks.push(Mark { x, y, bar: std.map(|s| (y - s, y + s)), flagged, after_gap });
+                marks.push(Mark { x, y, bar, across, flagged, after_gap });
                 after_gap = false;
             } else {
                 after_gap = true;

@@ -1,6 +1,8 @@
 //! The state of the running application.
 
-use std::path::PathBuf;
+use std::fs::File;
+use std::io::{self, BufRead as _, BufReader};
+use std::path::{Path, PathBuf};
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 
 use lissom_formats::ReadOptions;
@@ -91,6 +93,16 @@ impl App {
     /// `even_unreadable` added, so that the page shows what is wrong.
     pub(crate) fn add(&self, log: LogEntry, even_unreadable: bool) -> Result<(), Problem> {
         let session = self.session();
+        if log.kind == FileKind::Campaign && session.campaign().is_some() {
+            return Err(Problem::conflict(
+                "there is a description of the logs already",
+                "remove it first: a session has one campaign.toml",
+            ));
+        }
+        if let Some(same) = self.same_file(&session, &log)? {
+            let error = format!("{} is the same file as {same}, which is there already", log.name);
+            return Err(Problem::input(error, None));
+        }
         let guessed = match log.kind {
             FileKind::Log => match self.inspection(&session, &log) {
                 Ok(found) => Some(Setup::guessed(&found)),
@@ -108,6 +120,18 @@ impl App {
             session.logs.push(log);
             session.revision += 1;
         })
+    }
+
+    /// Name of a log of the session with the same content as a new one: as two runs it would count twice.
+    fn same_file(&self, session: &Session, new: &LogEntry) -> Result<Option<String>, Problem> {
+        let path = self.path(new)?;
+        for log in session.logs.iter().filter(|log| log.kind == FileKind::Log) {
+            // What is not there any more is reported when it is read.
+            if self.path(log).is_ok_and(|other| have_same_content(&path, &other).unwrap_or(false)) {
+                return Ok(Some(log.name.clone()));
+            }
+        }
+        Ok(None)
     }
 
     /// The job that runs, or the last one.
@@ -178,6 +202,27 @@ impl App {
         log: &LogEntry,
     ) -> Result<Arc<Inspection>, Problem> {
         self.cache.inspection(log.id, &self.path(log)?, &log.name, options(session))
+    }
+}
+
+/// Whether two files have the same bytes.
+fn have_same_content(a: &Path, b: &Path) -> io::Result<bool> {
+    let (a, b) = (File::open(a)?, File::open(b)?);
+    if !a.metadata()?.is_file() || a.metadata()?.len() != b.metadata()?.len() {
+        return Ok(false);
+    }
+    let (mut a, mut b) = (BufReader::new(a), BufReader::new(b));
+    loop {
+        let (left, right) = (a.fill_buf()?, b.fill_buf()?);
+        let both = left.len().min(right.len());
+        if left[..both] != right[..both] {
+            return Ok(false);
+        }
+        if both == 0 {
+            return Ok(true);
+        }
+        a.consume(both);
+        b.consume(both);
     }
 }
 

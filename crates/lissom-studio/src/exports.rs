@@ -15,11 +15,17 @@ pub(crate) struct Export {
     pub(crate) content: Vec<u8>,
 }
 
-/// Names of the files that a result gives.
-pub(crate) const FILES: [&str; 10] = [
+/// Names of the files of a result; one of planned runs has a plan.toml, and others a campaign.toml.
+pub(crate) fn names(planned: bool) -> impl Iterator<Item = &'static str> {
+    let other = if planned { "campaign.toml" } else { "plan.toml" };
+    FILES.into_iter().filter(move |name| *name != other)
+}
+
+const FILES: [&str; 11] = [
     "report.html",
     "result.json",
     "campaign.toml",
+    "plan.toml",
     "arm.toml",
     "arm.py",
     "arm.m",
@@ -36,7 +42,9 @@ pub(crate) fn export(folder: &Path, name: &str) -> Result<Export, Problem> {
     let (content_type, content) = match name {
         "report.html" => ("text/html; charset=utf-8", fs::read(folder.join(name))?),
         "result.json" => ("application/json", fs::read(folder.join(name))?),
-        "campaign.toml" => ("text/plain; charset=utf-8", fs::read(folder.join(name))?),
+        "campaign.toml" | "plan.toml" => {
+            ("text/plain; charset=utf-8", fs::read(folder.join(name))?)
+        }
         "arm.toml" => {
             let text = fs::read(folder.join(name)).map_err(|_| {
                 let error = "this result has no arm that can be simulated";

@@ -178,6 +178,7 @@ fn made(session: &Session, logs: Logs, job: &Job) -> Result<Made, Problem> {
             warnings: count(Severity::Warning),
             refusals: count(Severity::Refusal),
             interrupted: id.is_interrupted(),
+            planned: is_virtual,
             setup: session.setup.clone(),
         },
         result: write::json_text(Path::new("result.json"), &result)
@@ -225,7 +226,7 @@ fn keep(app: &Shared, made: Made) -> Result<u64, Problem> {
     create_private(&folder)?;
     let files = [
         ("result.json", made.result),
-        ("campaign.toml", made.campaign),
+        (if made.entry.planned { "plan.toml" } else { "campaign.toml" }, made.campaign),
         ("report.html", made.page),
     ];
     let arm = made.arm.map(|arm| ("arm.toml", arm));

@@ -28,6 +28,7 @@ mod opener;
 mod planning;
 mod problem;
 mod routes;
+mod said;
 mod sample;
 mod session;
 mod setup;

@@ -62,7 +62,14 @@ impl From<lissom_io::Error> for Problem {
 
 impl From<std::io::Error> for Problem {
     fn from(error: std::io::Error) -> Self {
-        Self::internal(error)
+        let is_full = error.kind() == std::io::ErrorKind::StorageFull;
+        let hint = "free space there, or start lissom studio with --folder on another disk";
+        let problem = Self::internal(error);
+        if !is_full {
+            return problem;
+        }
+        let error = "the disk of the session's folder is full".to_owned();
+        Self { error, hint: Some(hint.to_owned()), ..problem }
     }
 }
 

@@ -22,6 +22,7 @@ use crate::log_cache::TracePoints;
 use crate::opener;
 use crate::planning::{PlanView, Wanted};
 use crate::problem::Problem;
+use crate::said::Said;
 use crate::sample;
 use crate::session::{FileKind, LogEntry, Session};
 use crate::setup::Setup;
@@ -91,7 +92,7 @@ struct Key {
     key: String,
 }
 
-async fn key(State(app): State<Shared>, Json(said): Json<Token>) -> Answer<Key> {
+async fn key(State(app): State<Shared>, Said(said): Said<Token>) -> Answer<Key> {
     let key = app.access.exchange(&said.token)?;
     // The file opens one more page.
     let token = app.access.new_token().map_err(Problem::internal)?;
@@ -109,7 +110,7 @@ struct NewSetup {
     setup: Setup,
 }
 
-async fn put_setup(State(app): State<Shared>, Json(new): Json<NewSetup>) -> Answer<StateView> {
+async fn put_setup(State(app): State<Shared>, Said(new): Said<NewSetup>) -> Answer<StateView> {
     in_thread(move || {
         app.check_reading(&new.setup)?;
         app.change(new.revision, |session| {
@@ -128,7 +129,7 @@ struct Known {
     revision: u64,
 }
 
-async fn add_sample(State(app): State<Shared>, Json(known): Json<Known>) -> Answer<StateView> {
+async fn add_sample(State(app): State<Shared>, Said(known): Said<Known>) -> Answer<StateView> {
     in_thread(move || {
         if app.session().revision != known.revision || !app.session().logs.is_empty() {
             return Err(Problem::conflict(
@@ -170,7 +171,14 @@ async fn put_file(
 
 /// Adds a file that has arrived. A log that cannot be read is refused.
 fn add_file(app: &Shared, name: String) -> Result<(), Problem> {
-    let kind = FileKind::of(&app.folder.logs().join(&name));
+    let path = app.folder.logs().join(&name);
+    if lissom_formats::expands_beyond(&path, app.quota_bytes)? {
+        let mb = app.quota_bytes / 1_000_000;
+        let error = format!("{name} expands to more than {mb} MB");
+        let hint = "start the command with the file as its argument, or split it";
+        return Err(Problem::input(error, Some(hint.to_owned())));
+    }
+    let kind = FileKind::of(&path);
     let id = app.amend(Session::new_log)?;
     app.add(LogEntry { id, name, path: None, kind }, false)
 }
@@ -227,7 +235,7 @@ async fn job(State(app): State<Shared>) -> Json<Option<JobView>> {
     Json(app.job().map(|job| job.view()))
 }
 
-async fn start_job(State(app): State<Shared>, Json(known): Json<Known>) -> Answer<JobView> {
+async fn start_job(State(app): State<Shared>, Said(known): Said<Known>) -> Answer<JobView> {
     in_thread(move || {
         let session = app.session();
         if session.revision != known.revision {
@@ -311,7 +319,7 @@ async fn compare(
     Ok(fragment(text))
 }
 
-async fn make_plan(State(app): State<Shared>, Json(wanted): Json<Wanted>) -> Answer<PlanView> {
+async fn make_plan(State(app): State<Shared>, Said(wanted): Said<Wanted>) -> Answer<PlanView> {
     in_thread(move || {
         let (planned, view) = wanted.planned()?;
         app.keep_plan(planned);

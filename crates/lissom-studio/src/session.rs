@@ -74,6 +74,9 @@ pub(crate) struct ResultEntry {
     pub(crate) refusals: usize,
     /// Whether the search was ended early.
     pub(crate) interrupted: bool,
+    /// Whether the logs are planned runs on the virtual rig: the result then has a plan.toml in place of a campaign.toml.
+    #[serde(default)]
+    pub(crate) planned: bool,
     /// The setup that it was made with.
     pub(crate) setup: Setup,
 }

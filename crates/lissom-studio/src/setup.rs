@@ -221,6 +221,25 @@ impl Setup {
         Ok(Some((key, choice)))
     }
 
+    /// Names of channels of the first log that are used, and that `log` does not have.
+    pub(crate) fn lacking(&self, first: &Inspection, log: &Inspection) -> Vec<String> {
+        let command = self.command.as_ref().map(|command| &command.channel);
+        let picks = [self.time.as_ref(), self.motor.as_ref(), self.speed.as_ref(), command];
+        let picked = picks.into_iter().flatten().chain(&self.tips).map(|pick| pick.column.clone());
+        let guessed = [
+            (Role::Time, self.time.is_none() && said(&self.sample_time).is_none()),
+            (Role::Motor, self.motor.is_none()),
+        ];
+        let guessed = guessed.into_iter().filter(|(_, is_guessed)| *is_guessed);
+        let guessed = guessed
+            .filter_map(|(role, _)| Some(first.channels[first.guess(role)?.channel].asked()));
+        let has = |column: &String| {
+            let pick = Pick { column: column.clone(), ..Pick::default() };
+            column.trim().is_empty() || pick.channel(log).is_some()
+        };
+        picked.chain(guessed).filter(|column| !has(column)).collect()
+    }
+
     /// Removes what is said about logs that are not there.
     pub(crate) fn forget(&mut self, is_there: impl Fn(u64) -> bool) {
         self.left_out.retain(|log| is_there(*log));

@@ -23,9 +23,16 @@ pub(crate) struct StateView {
     setup: Setup,
     campaign: CampaignView,
     job: Option<JobView>,
-    results: Vec<ResultEntry>,
-    /// Names of the files that a result gives.
-    files: [&'static str; 10],
+    results: Vec<ResultView>,
+}
+
+/// A result.
+#[derive(Debug, Serialize)]
+struct ResultView {
+    #[serde(flatten)]
+    entry: ResultEntry,
+    /// Names of the files that it gives.
+    files: Vec<&'static str>,
 }
 
 /// A log, or why it cannot be read.
@@ -67,7 +74,16 @@ impl StateView {
         let first = session.used_logs().next().map(|log| log.id);
         let first = logs.iter().find(|(log, _)| Some(log.id) == first);
         let first = first.and_then(|(_, read)| read.as_ref()?.as_ref().ok());
-        let campaign = campaign(app, &session, first);
+        let mut campaign = campaign(app, &session, first);
+        if let Some(first) = first.filter(|_| !campaign.given) {
+            let used = logs.iter().filter(|(log, _)| !session.setup.left_out.contains(&log.id));
+            let read = used.filter_map(|(log, read)| Some((log, read.as_ref()?.as_ref().ok()?)));
+            let lacking = read.filter_map(|(log, read)| {
+                let name = session.setup.lacking(first, read).into_iter().next()?;
+                Some(lacks(&log.name, &name))
+            });
+            campaign.problems.extend(lacking);
+        }
         let views = logs.iter().map(|(log, read)| LogView {
             id: log.id,
             name: log.name.clone(),
@@ -85,10 +101,21 @@ impl StateView {
             setup: session.setup.clone(),
             campaign,
             job: app.job().map(|job| job.view()),
-            results: session.results.clone(),
-            files: exports::FILES,
+            results: session.results.iter().map(ResultView::of).collect(),
         }
     }
+}
+
+impl ResultView {
+    fn of(entry: &ResultEntry) -> Self {
+        Self { entry: entry.clone(), files: exports::names(entry.planned).collect() }
+    }
+}
+
+/// A log that does not have a channel of the first one.
+fn lacks(log: &str, channel: &str) -> Problem {
+    let hint = "leave it out above, or choose channels that all logs have";
+    Problem::input(format!("{log}: there is no channel \"{channel}\""), Some(hint.to_owned()))
 }
 
 fn inspected(log: &Arc<Inspection>) -> Option<InspectedLogEntry> {

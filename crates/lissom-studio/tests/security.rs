@@ -4,11 +4,12 @@
 mod client;
 
 use std::fs;
+use std::io::{Read as _, Write as _};
 use std::net::TcpStream;
 
 use client::{Client, options};
 use lissom_studio::{Studio, StudioError};
-use serde_json::json;
+use serde_json::{Value, json};
 use tempfile::tempdir;
 
 /// A log of a motor that follows a sine.
@@ -203,7 +204,9 @@ fn uploads_stay_in_their_folder_under_plain_names() {
     for name in
         ["..%2F..%2Fescaped.csv", "%2Fetc%2Fescaped.csv", "..%5Cescaped.csv", ".escaped.csv"]
     {
-        let answer = client.send("PUT", &format!("/api/files/{name}"), log().as_bytes());
+        // Each is another log: of one file there is one log.
+        let log = format!("{}{},0,0\n", log(), 8.0 + 0.002 * name.len() as f64);
+        let answer = client.send("PUT", &format!("/api/files/{name}"), log.as_bytes());
         assert_eq!(answer.status, 200, "{name}: {}", answer.body);
     }
     let names: Vec<String> = fs::read_dir(state.join("logs"))
@@ -239,6 +242,74 @@ fn a_quota_limits_uploads_and_nothing_remains_of_a_part() {
         std::thread::sleep(std::time::Duration::from_millis(20));
     }
     assert_eq!(files(), 1);
+}
+
+#[test]
+fn what_expands_beyond_the_quota_is_refused() {
+    let folder = tempdir().unwrap();
+    let mut limited = options(folder.path());
+    limited.quota_bytes = Some(200_000);
+    let client = Client::new(&limited);
+    let mut bomb = flate2::write::GzEncoder::new(Vec::new(), flate2::Compression::best());
+    std::io::copy(&mut std::io::repeat(b'0').take(20_000_000), &mut bomb).unwrap();
+    let bomb = bomb.finish().unwrap();
+    assert!(bomb.len() < 50_000, "{}", bomb.len());
+    let refused = client.send("PUT", "/api/files/a.csv.gz", &bomb);
+    assert_eq!(refused.status, 422, "{}", refused.body);
+    assert!(refused.body.contains("expands to more than"), "{}", refused.body);
+    assert_eq!(fs::read_dir(folder.path().join("logs")).unwrap().count(), 0);
+    let mut small = flate2::write::GzEncoder::new(Vec::new(), flate2::Compression::fast());
+    small.write_all(log().as_bytes()).unwrap();
+    let small = small.finish().unwrap();
+    assert_eq!(client.send("PUT", "/api/files/a.csv.gz", &small).status, 200);
+}
+
+#[test]
+fn names_in_exports_are_only_names() {
+    let folder = tempdir().unwrap();
+    let client = Client::new(&options(folder.path()));
+    let revision = json!({ "revision": client.state()["revision"] }).to_string();
+    assert_eq!(client.send("POST", "/api/sample", revision.as_bytes()).status, 200);
+    client.setup(|setup| setup["effort"] = json!("quick"));
+    let result = client.identify()["result"].as_u64().unwrap();
+    // As if the log had a channel of this name.
+    let evil = "=1+1\"'); import os #\u{1b}[31m</joint><!--\n*/";
+    let path = folder.path().join(format!("results/{result}/result.json"));
+    let mut found: Value = serde_json::from_str(&fs::read_to_string(&path).unwrap()).unwrap();
+    for part in ["arm", "models"] {
+        assert_eq!(found[part]["tips"][0]["name"], "tip [rad]");
+        found[part]["tips"][0]["name"] = json!(evil);
+    }
+    fs::write(&path, found.to_string()).unwrap();
+    let mut has_name = 0;
+    for name in ["arm.py", "arm.m", "arm.xml", "lissom_feedforward.h", "lissom_feedforward.c"] {
+        let file = client.send("GET", &format!("/api/results/{result}/files/{name}"), b"");
+        assert_eq!(file.status, 200, "{name}: {}", file.body);
+        assert!(file.body.chars().all(|c| c == '\n' || !c.is_control()), "{name}");
+        assert!(!file.body.contains("</joint><!--\n"), "{name}");
+        for line in file.body.lines().filter(|line| line.contains("import os")) {
+            has_name += 1;
+            // The name does not end the text that it stands in.
+            let [quote, before] = if name == "arm.m" { ["'", "'=1+1"] } else { ["\"", "\"=1+1"] };
+            let (_, rest) = line.split_once(before).unwrap_or_else(|| panic!("{name}: {line}"));
+            let (inside, _) = rest.split_once(quote).unwrap();
+            assert!(inside.contains("import os"), "{name}: {line}");
+        }
+    }
+    assert_eq!(has_name, 2);
+}
+
+#[test]
+fn what_is_no_json_is_answered_as_every_error_is() {
+    let folder = tempdir().unwrap();
+    let client = Client::new(&options(folder.path()));
+    for path in ["/api/key", "/api/job", "/api/plan"] {
+        for body in ["", "[", "{\"token\":7}"] {
+            let answer = client.send("POST", path, body.as_bytes());
+            assert!((400..500).contains(&answer.status), "{path}: {}", answer.status);
+            assert!(answer.json()["error"].is_string(), "{path}: {}", answer.body);
+        }
+    }
 }
 
 #[test]

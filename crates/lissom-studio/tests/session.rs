@@ -36,7 +36,7 @@ fn the_sample_is_identified_as_the_library_does_it() {
     let again = lissom_io::ResultFile::of(&campaign.campaign.channels, again.identified(), None);
     assert_eq!(serde_json::to_value(again).unwrap(), found);
     let state = client.state();
-    for name in state["files"].as_array().unwrap() {
+    for name in state["results"][0]["files"].as_array().unwrap() {
         let answer = file(name.as_str().unwrap());
         assert_eq!(answer.status, 200, "{name}: {}", answer.body);
         assert!(answer.head.contains("content-disposition: attachment"), "{}", answer.head);
@@ -44,6 +44,33 @@ fn the_sample_is_identified_as_the_library_does_it() {
     let report = client.send("GET", &format!("/api/results/{result}/report"), b"").body;
     assert!(report.starts_with("<h1>sample-1.csv and 3 more</h1>"), "{}", &report[..200]);
     assert!(!report.contains("<html") && report.contains("figure-data"));
+}
+
+#[test]
+fn a_log_that_cannot_be_one_is_reported_before_the_identification() {
+    let folder = tempdir().unwrap();
+    let client = with_sample(folder.path());
+    let sample = fs::read_to_string(folder.path().join("logs/sample-1.csv")).unwrap();
+    // The same file would count as two runs.
+    let same = client.send("PUT", "/api/files/copy.csv", sample.as_bytes());
+    assert_eq!(same.status, 422, "{}", same.body);
+    let error = &same.json()["error"];
+    assert_eq!(error, "copy.csv is the same file as sample-1.csv, which is there already");
+    // One of another machine has no such channel.
+    let other = sample.replacen("tip [rad]", "beam [rad]", 1);
+    let added = client.send("PUT", "/api/files/other.csv", other.as_bytes());
+    assert_eq!(added.status, 200, "{}", added.body);
+    let problems = added.json()["campaign"]["problems"].clone();
+    assert_eq!(problems[0]["error"], "other.csv: there is no channel \"tip [rad]\"", "{problems}");
+    let id = added.json()["logs"][4]["id"].clone();
+    let state = client.setup(|setup| setup["left_out"] = json!([id])).json();
+    assert_eq!(state["campaign"]["problems"], json!([]));
+    // A session has one description.
+    let campaign = state["campaign"]["text"].as_str().unwrap().replace("#:schema", "# ");
+    let first = client.send("PUT", "/api/files/campaign.toml", campaign.as_bytes());
+    assert_eq!(first.status, 200, "{}", first.body);
+    let second = client.send("PUT", "/api/files/again.toml", campaign.as_bytes());
+    assert_eq!(second.status, 409, "{}", second.body);
 }
 
 #[test]
@@ -162,6 +189,10 @@ fn the_next_experiment_is_planned_and_tried_with_the_arm_that_was_found() {
     );
     let report = client.send("GET", &format!("/api/results/{tried}/report"), b"").body;
     assert!(report.contains("truth"), "no true values on the page");
+    let files = client.state()["results"][1]["files"].to_string();
+    assert!(files.contains("plan.toml") && !files.contains("campaign.toml"), "{files}");
+    let path = format!("/api/results/{tried}/files/plan.toml");
+    assert_eq!(client.send("GET", &path, b"").body, plan["text"].as_str().unwrap());
     let wrong = json!({ "arm": "[beam]\nrigid = 1", "precision": "", "within": "" }).to_string();
     let refused = client.send("POST", "/api/plan", wrong.as_bytes());
     assert!(refused.status == 422 && refused.body.contains("arm.toml"), "{}", refused.body);

@@ -1,6 +1,7 @@
 //! Bode plots of a result.
 
-use lissom::lti::TransferFunction;
+use lissom::identify::NORMAL_95;
+use lissom::lti::{CoefficientCovariance, TransferFunction};
 use lissom_io::result::{SeriesEntry, TipQuantityName, TipResponseEntry};
 use lissom_io::{ResultFile, UnitNames};
 use lissom_report::{BodePlot, Role, Series, Style};
@@ -8,8 +9,14 @@ use num_complex::Complex64;
 
 use crate::known_arm::Reference;
 
-/// Number of points on the line of a model.
-const LINE: i32 = 1200;
+/// What the band of a line shows.
+const BAND: &str = "; band of the line: 95 %";
+/// Number of points on the line of a model, without those near its poles and zeros.
+const LINE: i32 = 240;
+/// Number of points near each pole and zero.
+const NEAR_ROOT: i32 = 24;
+/// Reach of these points, in half widths of a resonance.
+const REACH: f64 = 12.0;
 
 /// A point of a response.
 struct Point {
@@ -63,6 +70,27 @@ fn line(function: &TransferFunction, delay_s: f64, grid: &[f64]) -> Vec<Complex6
     grid.iter().map(at).collect()
 }
 
+/// The line of a model with a delay, and its 95 % band where the covariance of its coefficients is known.
+fn fitted(
+    function: &TransferFunction,
+    delay_s: f64,
+    covariance: Option<&Vec<Vec<f64>>>,
+    grid: &[f64],
+) -> Series {
+    let response = line(function, delay_s, grid);
+    let covariance = covariance.and_then(|rows| CoefficientCovariance::of_rows(rows));
+    let series = Series::new("fitted model", Role::Fitted, Style::Line, grid.to_vec(), response);
+    let covariance = covariance.filter(|covariance| covariance.fits(function));
+    let Some(covariance) = covariance else { return series };
+    let half_widths = |w: &f64| {
+        let error = covariance.of_response(function, *w);
+        error.map_or([f64::NAN; 2], |e| {
+            [e.relative_magnitude, e.phase_rad].map(|std| NORMAL_95 * std)
+        })
+    };
+    series.with_band(grid.iter().map(half_widths).collect())
+}
+
 fn motor(names: UnitNames, result: &ResultFile, reference: Option<&Reference>) -> BodePlot {
     let unit = format!("{}/{}", names.angle(), names.command_unit());
     let title = format!("Motor: {} per {}", names.motion(), names.command_name());
@@ -79,7 +107,8 @@ fn motor(names: UnitNames, result: &ResultFile, reference: Option<&Reference>) -
     if !sound.is_empty() {
         let flagged = sound.iter().any(|p| p.flagged);
         let note = if flagged { "flagged: a finding affects the point; " } else { "" };
-        plot = plot.subtitle(format!("{note}bars: one standard error"));
+        let band = result.models.motor_covariance.as_ref().map_or("", |_| BAND);
+        plot = plot.subtitle(format!("{note}bars: one standard error{band}"));
         let series = Series::new(
             "friction removed",
             Role::Corrected,
@@ -96,9 +125,8 @@ fn motor(names: UnitNames, result: &ResultFile, reference: Option<&Reference>) -
     let grid = grid(result);
     if let Some(model) = &result.models.motor {
         let delay_s = result.models.motor_delay_s.as_ref().map_or(0.0, |delay| delay.value);
-        let response = line(&function(&model.num, &model.den), delay_s, &grid);
-        let fitted = Series::new("fitted model", Role::Fitted, Style::Line, grid.clone(), response);
-        plot = plot.series(fitted);
+        let model = function(&model.num, &model.den);
+        plot = plot.series(fitted(&model, delay_s, result.models.motor_covariance.as_ref(), &grid));
     }
     if let Some((label, arm)) = reference.and_then(|r| Some((r.label, r.arm.as_ref()?))) {
         let exact: Vec<(f64, Complex64)> =
@@ -134,9 +162,11 @@ fn tip_plot(
     // The model of a calibrated deflection is that of its angle.
     let model = result.models.tips.get(i);
     if let Some(model) = model.filter(|_| tip.quantity != TipQuantityName::Deflection) {
-        let response = line(&function(&model.num, &model.den), model.delay_s.unwrap_or(0.0), &grid);
-        let fitted = Series::new("fitted model", Role::Fitted, Style::Line, grid.clone(), response);
-        plot = plot.series(fitted);
+        if model.covariance.is_some() {
+            plot = plot.subtitle(format!("bars: one standard error{BAND}"));
+        }
+        let (of_model, delay_s) = (function(&model.num, &model.den), model.delay_s.unwrap_or(0.0));
+        plot = plot.series(fitted(&of_model, delay_s, model.covariance.as_ref(), &grid));
     }
     let known_arm = reference.and_then(|r| Some((r.label, r.arm.as_ref()?)));
     if let Some((label, arm)) = known_arm.filter(|_| tip.quantity == TipQuantityName::Angle) {
@@ -147,12 +177,30 @@ fn tip_plot(
     plot
 }
 
-/// Frequencies of a model's line, over the range of the data.
+/// Frequencies of a model's line, over the range of the data; closer near lightly damped poles and zeros.
 fn grid(result: &ResultFile) -> Vec<f64> {
+    let models = &result.models;
+    let motor = models.motor.as_ref().map(|g| function(&g.num, &g.den));
+    let tips = models.tips.iter().map(|tip| function(&tip.num, &tip.den));
+    let of_model = |g: TransferFunction| {
+        let both = [g.poles(), g.zeros()];
+        both.into_iter().flatten().flatten().collect::<Vec<_>>()
+    };
+    let roots = motor.into_iter().chain(tips).flat_map(of_model).filter(|root| root.im > 0.0);
+    // Evenly spaced phases of a resonance.
+    let near = |root: Complex64| {
+        let end = REACH.atan();
+        let phase = move |k: i32| end * f64::from(2 * k - NEAR_ROOT) / f64::from(NEAR_ROOT);
+        (0..=NEAR_ROOT).map(move |k| root.im + root.re.abs() * phase(k).tan())
+    };
     let omega = || result.frequency_response.omega_rad_s.iter().copied();
     let (low, high) = (omega().fold(f64::INFINITY, f64::min), omega().fold(0.0, f64::max));
     let (low, high) = (low / 1.1, high * 1.1);
-    (0..=LINE).map(|k| low * (high / low).powf(f64::from(k) / f64::from(LINE))).collect()
+    let even = (0..=LINE).map(|k| low * (high / low).powf(f64::from(k) / f64::from(LINE)));
+    let close = roots.flat_map(near).filter(|omega| (low..high).contains(omega));
+    let mut grid: Vec<f64> = even.chain(close).collect();
+    grid.sort_by(f64::total_cmp);
+    grid
 }
 
 fn known(label: &str, exact: &[(f64, Complex64)]) -> Series {

@@ -5,9 +5,10 @@ use lissom_io::result::{
     CurvePointEntry, DirectionName, FrictionLawEntry, LawTermEntry, MethodName,
 };
 use lissom_io::{ResultFile, UnitNames};
-use lissom_report::{Axis, Cells, LinePlot, Role, Table, Trace, significant};
+use lissom_report::{Axis, Cells, LinePlot, Role, Table, Trace, TraceStyle, significant};
 
 use crate::parameter_rows::given;
+use crate::velocity_friction::{self, FrictionOfDirection};
 
 /// Number of points on the line of the law.
 const LINE: i32 = 200;
@@ -17,7 +18,8 @@ const DIRECTIONS: [(&str, DirectionName, Role); 2] = [
     ("backward", DirectionName::Backward, Role::Other(0)),
 ];
 
-/// Plot of both directions as magnitudes over speed, with the friction law of the result; `None` without a curve.
+/// Plot of both directions as magnitudes over speed, with the friction law of the result, and the points and straight lines of
+/// constant velocities; `None` without a curve.
 pub fn plot(names: UnitNames, result: &ResultFile) -> Option<LinePlot> {
     let law = result.methods.friction_law.as_ref()?;
     let curve = &result.friction.curve;
@@ -29,7 +31,7 @@ pub fn plot(names: UnitNames, result: &ResultFile) -> Option<LinePlot> {
         Axis::linear(format!("speed ({}/s)", names.angle())),
         Axis::linear(format!("friction against the motion ({})", names.torque_unit())),
     )
-    .subtitle("points: without a friction law; bars: 95 % interval; lines: the friction law");
+    .subtitle("points: without a friction law; bars: 95 % interval; solid lines: the friction law");
     let replayed = result.from == Some(MethodName::OutputError);
     let found = |speed: f64, direction| {
         if replayed {
@@ -53,7 +55,28 @@ pub fn plot(names: UnitNames, result: &ResultFile) -> Option<LinePlot> {
             plot = plot.trace(Trace::line("", role, (0..=LINE).map(at).collect(), line));
         }
     }
-    Some(plot)
+    Some(match velocity_friction::in_torque(names, result) {
+        Some(directions) => directions.into_iter().fold(plot, constant_velocities),
+        None => plot,
+    })
+}
+
+/// Adds the points of constant velocities in one direction, and the straight line through them.
+fn constant_velocities(plot: LinePlot, found: FrictionOfDirection) -> LinePlot {
+    let (name, role) = match found.direction {
+        DirectionName::Forward => ("forward, constant velocity", Role::Other(1)),
+        DirectionName::Backward => ("backward, constant velocity", Role::Other(2)),
+    };
+    let plot = plot.trace(Trace::points_with_bars(
+        name,
+        role,
+        found.speed,
+        found.friction,
+        found.std.into_iter().map(|std| NORMAL_95 * std).collect(),
+    ));
+    let Some([from, to]) = found.line else { return plot };
+    let line = Trace::new("", role, TraceStyle::Dashes, vec![from.0, to.0], vec![from.1, to.1]);
+    plot.trace(line)
 }
 
 /// Table of all terms that were tried, with the numbers of the tests.

@@ -28,7 +28,8 @@ pub fn own_logs(campaign: &Campaign, arm: Option<&FoundArm>) -> Option<LogPredic
 pub(crate) fn motion_figures(campaign: &Campaign, found: &LogPrediction) -> ByRun {
     let figure = |run: usize| {
         let name = campaign.runs[run].name().to_owned();
-        let mut figure = StackedPlot::new(format!("{name}: measured and predicted"));
+        let mut figure =
+            StackedPlot::new(format!("{name}: measured and predicted")).linked(link(&name));
         for channel in 0..=campaign.channels.tips.len() {
             for plot in motion(campaign, found, run, channel)? {
                 figure = figure.plot(plot);
@@ -41,6 +42,11 @@ pub(crate) fn motion_figures(campaign: &Campaign, found: &LogPrediction) -> ByRu
         Some((name, figure))
     };
     by_residual(campaign, found).into_iter().filter_map(figure).collect()
+}
+
+/// Name of the link of all time axes of a run.
+fn link(run: &str) -> String {
+    format!("time of {run}")
 }
 
 /// The terms of the torque of each run; the run with the largest residual torque comes first.
@@ -166,6 +172,7 @@ pub(crate) fn cycle_figures(
         let friction = part(&|k| torque.terms.viscous_nm[k] + torque.terms.dry_nm[k]);
         let axis = || Axis::linear("time (s)");
         let figure = StackedPlot::new(format!("{}: one cycle", run.name()))
+            .linked(link(run.name()))
             .plot(LinePlot::new("", axis(), Axis::linear(format!("{name} ({unit})"))).trace(angle))
             .plot(
                 LinePlot::new("", axis(), torque_axis(names))

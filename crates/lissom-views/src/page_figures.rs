@@ -19,7 +19,7 @@ pub const OF_LOGS: [&str; 5] =
 /// |---|---|
 /// | `bode-motor`, `bode-tip-1`, … | frequency responses |
 /// | `poles-motor`, `poles-tip-1`, … | poles and zeros |
-/// | `third-harmonic` | Coulomb friction of each pair of runs |
+/// | `third-harmonic`, `third-harmonic-amplitude` | Coulomb friction of each pair of runs, over frequency and amplitude |
 /// | `friction-velocity`, `friction-curve` | friction from constant velocities, and against speed |
 /// | `harmonics` | harmonics of a run |
 /// | `motion`, `torque`, `cycle` | prediction of a run |
@@ -33,6 +33,9 @@ pub fn page_figures(content: PageContent<'_>) -> Vec<NamedFigure> {
     }
     if let Some(plot) = third_harmonic::pair_plot(names, result) {
         figures.push(NamedFigure::new("third-harmonic", plot));
+    }
+    if let Some(plot) = third_harmonic::pair_plot_over_amplitude(names, result) {
+        figures.push(NamedFigure::new("third-harmonic-amplitude", plot));
     }
     figures.extend(of_runs("harmonics", own_logs::harmonic_figures(result)));
     if let Some((campaign, own)) = logs {

@@ -85,6 +85,13 @@ pub fn page(title: &str, content: PageContent<'_>) -> Page {
             &plot,
             "Coulomb friction from each pair of runs, at a frequency and at three times this frequency.",
         );
+        if let Some(plot) = third_harmonic::pair_plot_over_amplitude(names, result) {
+            page = page.figure(
+                &plot,
+                "The same over the amplitude of the motor in the run at the lower frequency. An estimate that changes by \
+                 more than its bars shows friction that is not Coulomb friction alone.",
+            );
+        }
         page = page.table(&third_harmonic::pair_table(names, result));
     }
     if let Some(table) = window_table(result) {

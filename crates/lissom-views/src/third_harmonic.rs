@@ -2,10 +2,31 @@
 
 use lissom_io::result::{EstimateEntry, SinePairEntry};
 use lissom_io::{ResultFile, UnitNames};
-use lissom_report::{Axis, Band, Cells, LinePlot, Role, Table, Trace, significant};
+use lissom_report::{Axis, Band, Cells, LinePlot, Quantity, Role, Table, Trace, significant};
 
 /// Plot of the estimate from each pair of runs over its frequency; `None` without this method.
 pub fn pair_plot(names: UnitNames, result: &ResultFile) -> Option<LinePlot> {
+    let axis = Axis::log("ω0 (rad/s)").quantity(Quantity::FrequencyRadPerSecond);
+    plot_over(names, result, axis, "frequency", |pair| Some(pair.omega_rad_s))
+}
+
+/// The same over the amplitude of the motor's motion in the run at the lower frequency; `None` if an amplitude is missing.
+pub fn pair_plot_over_amplitude(names: UnitNames, result: &ResultFile) -> Option<LinePlot> {
+    let amplitude = |pair: &SinePairEntry| {
+        let run = result.runs.iter().find(|run| run.name == pair.run)?;
+        run.sinusoid.as_ref()?.amplitude.get(names).copied()
+    };
+    let axis = Axis::log(format!("amplitude of the motor ({})", names.angle()));
+    plot_over(names, result, axis, "amplitude", amplitude)
+}
+
+fn plot_over(
+    names: UnitNames,
+    result: &ResultFile,
+    axis: Axis,
+    over: &str,
+    abscissa: impl Fn(&SinePairEntry) -> Option<f64>,
+) -> Option<LinePlot> {
     let third = result.methods.third_harmonic.as_ref()?;
     let mean = third.coulomb.in_command(names)?.as_ref()?;
     let [low, high] = mean.ci95;
@@ -15,15 +36,15 @@ pub fn pair_plot(names: UnitNames, result: &ResultFile) -> Option<LinePlot> {
     let trace = Trace::points_with_bars(
         "each pair",
         Role::Corrected,
-        third.pairs.iter().map(|p| p.omega_rad_s).collect(),
+        third.pairs.iter().map(abscissa).collect::<Option<_>>()?,
         third.pairs.iter().map(|p| coulomb(p, |e| e.value)).collect(),
         third.pairs.iter().map(|p| coulomb(p, |e| e.std)).collect(),
     )
     .with_flags(third.pairs.iter().map(|p| !p.used).collect());
     let unit = names.command_unit();
     let plot = LinePlot::new(
-        "Coulomb friction by the third harmonic",
-        Axis::log("ω0 (rad/s)"),
+        format!("Coulomb friction by the third harmonic over {over}"),
+        axis,
         Axis::linear(format!("Coulomb friction ({unit})")),
     )
     .band(Band::new("mean, 95 % interval", Role::Fitted, mean.value, (low, high)))

@@ -75,6 +75,47 @@ pub fn friction_plot(names: UnitNames, result: &ResultFile) -> Option<LinePlot> 
     (!found.points.is_empty()).then_some(plot)
 }
 
+/// Friction at constant velocities in one direction, as magnitudes, in the unit of torques.
+pub(crate) struct FrictionOfDirection {
+    /// The direction.
+    pub(crate) direction: DirectionName,
+    /// Magnitude of each velocity.
+    pub(crate) speed: Vec<f64>,
+    /// Torque against the motion at each, without the damping by back-EMF.
+    pub(crate) friction: Vec<f64>,
+    /// Its standard error.
+    pub(crate) std: Vec<f64>,
+    /// Ends of the straight line, speed and friction.
+    pub(crate) line: Option<[(f64, f64); 2]>,
+}
+
+/// Friction at constant velocities in torques, both directions; `None` without this method.
+pub(crate) fn in_torque(names: UnitNames, result: &ResultFile) -> Option<[FrictionOfDirection; 2]> {
+    let found = result.methods.constant_velocity.as_ref().filter(|c| !c.points.is_empty())?;
+    let constant = result.torque_per_command.unwrap_or(1.0);
+    let back_emf = found.back_emf.get(names).copied().unwrap_or(0.0);
+    let of_direction = |direction: DirectionName| {
+        let sign = direction.sign();
+        let point = |p: &SteadyPointEntry| {
+            let speed = sign * p.velocity.get(names)?.value;
+            let command = p.command.get(names)?;
+            let friction = sign * constant * command.value - back_emf * speed;
+            Some((speed, (friction, constant.abs() * command.std)))
+        };
+        let points = found.points.iter().filter(|p| p.direction == direction).filter_map(point);
+        let (speed, (friction, std)): (Vec<f64>, (Vec<f64>, Vec<f64>)) = points.unzip();
+        let fastest = speed.iter().fold(0.0_f64, |most, v| most.max(*v));
+        let line = found.lines.iter().find(|line| line.direction == direction);
+        let line = line.and_then(|line| {
+            let (coulomb, viscous) = (given(line.coulomb.get(names))?, line.viscous.get(names)?);
+            let at = |v: f64| (v, viscous.value.mul_add(v, coulomb.value));
+            Some([at(0.0), at(fastest)])
+        });
+        FrictionOfDirection { direction, speed, friction, std, line }
+    };
+    Some([DirectionName::Forward, DirectionName::Backward].map(of_direction))
+}
+
 /// Table of all stretches at a constant velocity.
 pub fn stretch_table(names: UnitNames, result: &ResultFile) -> Table {
     let velocity = format!("velocity ({}/s)", names.angle());

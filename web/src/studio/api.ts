@@ -4,6 +4,7 @@ import type { Problem } from "./types";
 
 const KEY = "lissom-key";
 const NEW_ADDRESS = "Open the address that the command `lissom studio` prints.";
+const NO_ANSWER = "lissom studio does not answer";
 
 /** An error that the page shows. */
 export class Refused extends Error {
@@ -33,7 +34,8 @@ async function asked(path: string, options: RequestInit = {}): Promise<Response>
   try {
     response = await fetch(path, { ...options, headers });
   } catch {
-    throw new Refused({ error: "lissom studio does not answer", hint: "Start it again; the state is kept." }, 0);
+    const hint = "If it has ended, start it again in a terminal and open the address that it prints: the session is kept.";
+    throw new Refused({ error: NO_ANSWER, hint }, 0);
   }
   return answered(response);
 }

@@ -26,6 +26,31 @@ export function button(text: string, action: () => void, properties: Properties 
   return h("button", { type: "button", onclick: action, ...properties }, text);
 }
 
+/** Time in which a second press confirms the first one [ms]. */
+const CONFIRM_MS = 4000;
+
+/** A button that acts when it is pressed twice: what it does cannot be undone. */
+export function confirmed(text: string, action: () => void, properties: Properties = {}): HTMLButtonElement {
+  let timer = 0;
+  const made = button(
+    text,
+    () => {
+      if (timer !== 0) {
+        clearTimeout(timer);
+        action();
+        return;
+      }
+      made.textContent = `${text} for good?`;
+      timer = window.setTimeout(() => {
+        timer = 0;
+        made.textContent = text;
+      }, CONFIRM_MS);
+    },
+    properties,
+  );
+  return made;
+}
+
 /** Replaces the content of a place; what had the focus has it again. */
 export function put(place: Element, ...children: readonly Child[]): void {
   const focused = document.activeElement?.id;

@@ -85,9 +85,8 @@ export class Identify {
         this.job = await get<Job>("/api/job");
       } catch (error) {
         this.polling = false;
-        this.store.problem = { error: error instanceof Error ? error.message : String(error) };
         this.job = null;
-        this.store.changed();
+        this.store.fail(error);
         return;
       }
       if (this.job.finished) this.ended = this.store.state.revision;

@@ -36,17 +36,23 @@ const message = h("div", { role: "alert" });
 const content = h("main");
 let chosen = sessionStorage.getItem(TAB) ?? "Logs";
 
-function choose(tab: string): void {
+function show(tab: string): void {
   chosen = tab;
   sessionStorage.setItem(TAB, tab);
   render();
   scrollTo(0, 0);
 }
 
+/** Shows a tab; the browser's Back leads to the one before. */
+function choose(tab: string): void {
+  if (tab !== chosen) history.pushState({ tab }, "");
+  show(tab);
+}
+
 function render(): void {
   const { problem, busy } = store;
   const words = problem ? [h("strong", {}, problem.error), problem.hint ? h("p", {}, problem.hint) : null] : [busy ? h("p", {}, `${busy} …`) : null];
-  put(message, ...words);
+  put(message, ...words, store.waits ? button("Send again", () => void store.sendAll(), { id: "again-send" }) : null);
   message.className = problem ? "problem" : busy ? "busy" : "";
   if (!store.isReady) return;
   const views = tabs[chosen] ?? tabs["Logs"] ?? [];
@@ -65,6 +71,14 @@ function render(): void {
 async function begin(): Promise<void> {
   document.body.append(h("header", {}, h("h1", {}, "lissom studio"), bar), message, content);
   store.listen(render);
+  addEventListener("popstate", ({ state }) => {
+    const { tab } = (state ?? {}) as { tab?: string };
+    if (tab && tab in tabs) show(tab);
+  });
+  document.addEventListener("visibilitychange", () => {
+    // Without an answer, the next thing that the reader does says so.
+    if (document.visibilityState === "visible") store.refresh().catch(() => undefined);
+  });
   try {
     await enter();
   } catch (error) {
@@ -72,6 +86,7 @@ async function begin(): Promise<void> {
     render();
     return;
   }
+  history.replaceState({ tab: chosen }, "");
   await store.load();
 }
 

@@ -90,7 +90,17 @@ export class Motion {
       const shown = this.figure?.shownRange() ?? null;
       this.figure?.end();
       this.place.replaceChildren();
-      this.figure = new Figure(this.place, data, this.choice, null, (range, pixels) => this.points(range, pixels), shown);
+      this.figure = new Figure(this.place, data, this.choice, null, {
+        refine: async (range, pixels) => {
+          try {
+            return await this.points(range, pixels);
+          } catch (error) {
+            this.store.fail(error);
+            return null;
+          }
+        },
+        first: shown,
+      });
     } catch (error) {
       put(this.place, h("p", { class: "wrong" }, String(error)));
     }

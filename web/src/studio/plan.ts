@@ -6,6 +6,11 @@ import type { Identify } from "./identify";
 import type { Store } from "./store";
 import type { Job, PlanView } from "./types";
 
+/** Where the arm of a result is kept that the reader has edited. */
+function edited(result: number): string {
+  return `lissom-arm-${result}`;
+}
+
 export class Plan {
   readonly element = h("section", { "aria-label": "Plan" });
   private readonly place = h("div");
@@ -28,6 +33,7 @@ export class Plan {
         this.renderPlan();
       });
     }
+    this.arm.addEventListener("input", () => sessionStorage.setItem(edited(this.chosen), this.arm.value));
   }
 
   render(): void {
@@ -74,7 +80,8 @@ export class Plan {
   }
 
   private async load(id: number): Promise<void> {
-    this.arm.value = "";
+    this.arm.value = sessionStorage.getItem(edited(id)) ?? "";
+    if (this.arm.value !== "") return;
     await this.store.during("", async () => {
       this.arm.value = await getText(`/api/results/${id}/files/arm.toml`);
     });

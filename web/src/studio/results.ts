@@ -2,7 +2,7 @@
 
 import { enlivenReport } from "../report";
 import { getFile, getText, send } from "./api";
-import { button, counted, h, put } from "./dom";
+import { button, confirmed, counted, h, put } from "./dom";
 import type { Store } from "./store";
 import type { Result, State } from "./types";
 
@@ -10,6 +10,7 @@ const FILE_WORDS: Record<string, string> = {
   "report.html": "report page",
   "result.json": "all numbers",
   "campaign.toml": "description of the logs",
+  "plan.toml": "the planned runs",
   "arm.toml": "the arm, for plans and virtual experiments",
   "arm.py": "python-control",
   "arm.m": "MATLAB script",
@@ -56,7 +57,7 @@ export class Results {
       this.render();
     });
     const again = button("Use its settings again", () => void this.store.say((setup) => Object.assign(setup, structuredClone(result.setup))), { id: "again" });
-    const remove = button("Remove", () => void this.remove(result), { "aria-label": "remove this result" });
+    const remove = confirmed("Remove", () => void this.remove(result), { id: "remove-result" });
     put(this.element, h("div", { class: "row" }, select, again, remove), this.files(result), this.report);
     if (isNew) void this.load(result);
   }
@@ -74,8 +75,13 @@ export class Results {
   }
 
   private files(result: Result): HTMLElement {
-    const command = `lissom identify campaign.toml${result.effort === "normal" ? "" : ` --effort ${result.effort}`} --report report.html --json result.json`;
-    const links = this.store.state.files.map((name) =>
+    const effort = result.effort === "normal" ? "" : ` --effort ${result.effort}`;
+    const identify = (campaign: string) => `lissom identify ${campaign}${effort} --report report.html --json result.json`;
+    // The rig writes the logs of a plan, and their campaign.toml.
+    const simulate = "lissom rig arm.toml --campaign plan.toml --out virtual";
+    const command = result.planned ? `${simulate} && ${identify("virtual/campaign.toml")}` : identify("campaign.toml");
+    const beside = result.planned ? "plan.toml and the arm.toml that it was planned for" : "campaign.toml beside the logs";
+    const links = result.files.map((name) =>
       h("li", {}, button(name, () => void this.save(result, name), { id: `file-${name}` }), ` ${FILE_WORDS[name] ?? ""}`),
     );
     return h(
@@ -83,7 +89,7 @@ export class Results {
       { class: "files-of" },
       h("summary", {}, "Save files"),
       h("ul", {}, ...links),
-      h("p", {}, "The same from the command line, with campaign.toml beside the logs: ", h("code", { id: "command-line" }, command)),
+      h("p", {}, `The same from the command line, with ${beside}: `, h("code", { id: "command-line" }, command)),
     );
   }
 
@@ -154,7 +160,12 @@ export class Compare {
       const text = (result: Result) => JSON.stringify(result.setup[key as keyof Result["setup"]]);
       return others.some((other) => text(other) !== text(first));
     });
-    const words = differ.length > 0 ? `Settings that differ: ${differ.map((key) => key.replaceAll("_", " ")).join(", ")}.` : "The settings are the same.";
+    const values = (key: string) => {
+      const all = [first, ...others].map(({ setup }) => setup[key as keyof Result["setup"]] ?? "none");
+      const isShort = all.every((value) => typeof value !== "object");
+      return `${key.replaceAll("_", " ")}${isShort ? ` (${all.join(" → ")})` : ""}`;
+    };
+    const words = differ.length > 0 ? `Settings that differ: ${differ.map(values).join(", ")}.` : "The settings are the same.";
     const same = " Results of the same logs share their noise: differences are then smaller than their standard errors say.";
     return [h("p", {}, words + same)];
   }

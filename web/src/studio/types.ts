@@ -98,6 +98,8 @@ export interface Result {
   readonly warnings: number;
   readonly refusals: number;
   readonly interrupted: boolean;
+  readonly planned: boolean;
+  readonly files: readonly string[];
   readonly setup: Setup;
 }
 
@@ -114,7 +116,6 @@ export interface State {
   };
   readonly job: Job | null;
   readonly results: readonly Result[];
-  readonly files: readonly string[];
 }
 
 export interface Trace {

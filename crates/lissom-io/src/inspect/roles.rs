@@ -68,7 +68,7 @@ impl Role {
             Self::Voltage => &["u", "uq", "voltage", "volt", "volts", "spannung", "pwm", "duty"],
             Self::Motor => &[
                 "q", "pos", "position", "angle", "theta", "winkel", "phi", "enc", "encoder",
-                "lage", "weg", "posicion", "joint", "motor",
+                "lage", "weg", "posicion", "joint", "motor", "hub", "shaft", "rotor",
             ],
             Self::Speed => &[
                 "speed",
@@ -228,6 +228,11 @@ fn score(role: Role, channel: &InspectedChannel) -> Option<(i32, String)> {
         why.push(format!("but also \"{word}\""));
     }
     let of_tip = role != Role::Tip && has(Role::Tip.words()).is_some();
+    // A point of the arm is no motor because its unit is that of a position.
+    let only_unit = role == Role::Motor && has(role.words()).is_none();
+    if of_tip && only_unit {
+        return None;
+    }
     if of_tip {
         points -= WORD;
     }

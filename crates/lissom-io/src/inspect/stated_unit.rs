@@ -26,7 +26,7 @@ pub enum UnitSource {
 }
 
 /// Other spellings, in small letters, and the unit.
-const SPELLINGS: [(&str, &str); 48] = [
+const SPELLINGS: [(&str, &str); 53] = [
     ("ncm", "cN*m"),
     ("n*cm", "cN*m"),
     ("n·cm", "cN*m"),
@@ -70,6 +70,11 @@ const SPELLINGS: [(&str, &str); 48] = [
     ("degrees", "deg"),
     ("radian", "rad"),
     ("radians", "rad"),
+    ("rads", "rad"),
+    ("rads/s", "rad/s"),
+    ("rads/sec", "rad/s"),
+    ("radians/s", "rad/s"),
+    ("radians/sec", "rad/s"),
     ("u/min", "rpm"),
     ("1/min", "rpm"),
     ("n.m", "N*m"),
@@ -121,6 +126,8 @@ pub(super) fn stated_unit(channel: &Channel) -> Option<StatedUnit> {
 
 /// The unit of a text, with other spellings.
 pub(super) fn known_unit(text: &str) -> StatedUnit {
+    // "theta in rad".
+    let text = text.rsplit_once(" in ").map_or(text, |(_, unit)| unit.trim());
     let small = text.to_lowercase();
     let spelled = SPELLINGS.iter().find(|(spelling, _)| *spelling == small);
     let unit = spelled.map_or_else(|| text.to_owned(), |(_, unit)| (*unit).to_owned());
@@ -174,6 +181,8 @@ mod tests {
         assert_eq!(known_unit("min^-1").text, "rpm");
         assert!(known_unit("1/s").known.is_none());
         assert!(known_unit("grad").known.is_none() && known_unit("MA").known.is_none());
+        assert_eq!(known_unit("Theta in rad").text, "rad");
+        assert_eq!(known_unit("rads/s").known.unwrap().1, Dimension::RATE);
         assert_eq!(known_unit("Ncm").text, "cN*m");
         assert_eq!(known_unit("oz-in").known.unwrap().1, Dimension::TORQUE);
     }

@@ -3,7 +3,7 @@
 use lissom_core::identify::{
     Identified, LinearModels, ModelSource, Response, ResponsePoint, TipModel,
 };
-use lissom_core::lti::TransferFunction;
+use lissom_core::lti::{CoefficientCovariance, TransferFunction};
 use lissom_core::record::{Channels, Tip};
 use serde::{Deserialize, Serialize};
 
@@ -115,6 +115,8 @@ pub struct LinearModelEntries {
     pub motor: Option<TransferFunctionEntry>,
     /// Time by which the command acts later than it is logged; null if the data show no delay.
     pub motor_delay_s: Option<EstimateEntry>,
+    /// Covariance matrix of `motor` and `motor_delay_s`, see `covariance` of a tip.
+    pub motor_covariance: Option<Vec<Vec<f64>>>,
     /// Tip per motor angle: the angle for a calibrated deflection, the acceleration for an acceleration, the deflection
     /// for a deflection of unknown scale.
     pub tips: Vec<TipModelEntry>,
@@ -146,6 +148,15 @@ pub struct TipModelEntry {
     /// Time by which the tip is read later than the motor, which is not part of `num` and `den`; null if it was not
     /// searched for.
     pub delay_s: Option<f64>,
+    /// Covariance matrix of the coefficients of `num`, then of `den`, then of `delay_s`; null without a covariance of the
+    /// whole model.
+    pub covariance: Option<Vec<Vec<f64>>>,
+}
+
+/// Rows of the covariance of a model; `None` if a number is not finite.
+fn covariance_rows(covariance: Option<&CoefficientCovariance>) -> Option<Vec<Vec<f64>>> {
+    let rows = covariance?.rows();
+    rows.iter().flatten().all(|v| v.is_finite()).then_some(rows)
 }
 
 impl LinearModelEntries {
@@ -156,6 +167,7 @@ impl LinearModelEntries {
             num: model.function.num.clone(),
             den: model.function.den.clone(),
             delay_s: model.delay_s,
+            covariance: covariance_rows(model.covariance.as_ref()),
         };
         Self {
             from: match models.source {
@@ -164,6 +176,7 @@ impl LinearModelEntries {
             },
             motor: models.motor.as_ref().map(TransferFunctionEntry::of),
             motor_delay_s: EstimateEntry::or_null(models.motor_delay),
+            motor_covariance: covariance_rows(models.motor_covariance.as_ref()),
             tips: channels.tips.iter().zip(&models.tips).map(tip).collect(),
             state_space: models.state_space.as_ref().map(StateSpaceEntry::of),
         }

@@ -21,7 +21,7 @@ use super::linear_model_entries::{FrequencyResponseEntry, LinearModelEntries};
 use super::method_entries::MethodEntries;
 use super::result_error::ResultError;
 use super::separability_entry::SeparabilityEntry;
-use super::unit_keys::{CouplingByTipKey, CouplingKey, InertiaKey, WithUnit};
+use super::unit_keys::{CouplingByTipKey, CouplingKey, InertiaKey, MotionKey, WithUnit};
 use super::unit_names::UnitNames;
 use crate::io_error::Error;
 use crate::read_text::read_text;
@@ -143,6 +143,9 @@ pub struct SinusoidEntry {
     pub dropped_periods: usize,
     /// Share of the cycle in which the joint sticks.
     pub stuck_share: Option<f64>,
+    /// Amplitude of the motor's motion, that of its first harmonic.
+    #[serde(flatten)]
+    pub amplitude: WithUnit<MotionKey, f64>,
     /// Harmonics of the command.
     #[serde(default)]
     pub command_harmonics: HarmonicsEntry,
@@ -225,7 +228,7 @@ impl ResultFile {
             models: LinearModelEntries::of(channels, &id.models),
             geometry: described.map(GeometryEntry::of),
             equivalent: id.equivalent.as_ref().map(|e| EquivalentEntry::of(names, e)),
-            runs: id.runs.iter().map(RunEntry::of).collect(),
+            runs: id.runs.iter().map(|run| RunEntry::of(names, run)).collect(),
             findings: FindingEntry::list(&id.findings),
         }
     }
@@ -242,10 +245,15 @@ impl BeamEntry {
     }
 }
 
+/// Amplitude of the first harmonic; zero if there is none.
+fn first_harmonic(harmonics: &Harmonics) -> f64 {
+    harmonics.get(1).map_or(0.0, |phasor| phasor.value.norm())
+}
+
 impl HarmonicsEntry {
     /// Empty if the first harmonic has no amplitude.
     fn of(harmonics: &Harmonics) -> Self {
-        let first = harmonics.get(1).map_or(0.0, |phasor| phasor.value.norm());
+        let first = first_harmonic(harmonics);
         if first <= 0.0 {
             return Self::default();
         }
@@ -258,7 +266,7 @@ impl HarmonicsEntry {
 }
 
 impl RunEntry {
-    fn of(r: &RunAnalysis) -> Self {
+    fn of(names: UnitNames, r: &RunAnalysis) -> Self {
         let (kind, sinusoid) = match &r.kind {
             RunKind::Sinusoidal(s) => (
                 RunKindName::Sinusoidal,
@@ -268,6 +276,7 @@ impl RunEntry {
                     periods: s.steady.periods,
                     dropped_periods: s.steady.dropped,
                     stuck_share: r.stuck_share,
+                    amplitude: WithUnit::new(names, first_harmonic(&s.motor)),
                     command_harmonics: HarmonicsEntry::of(&s.command),
                     motor_harmonics: HarmonicsEntry::of(&s.motor),
                 }),

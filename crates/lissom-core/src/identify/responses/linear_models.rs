@@ -1,5 +1,6 @@
 //! Linear models of drive and beam, for use in other tools.
 
+use nalgebra::DVector;
 use num_complex::Complex64;
 
 use crate::identify::estimate::Estimate;
@@ -7,7 +8,7 @@ use crate::identify::judge::{Evidence, Methods};
 use crate::identify::methods::output_error::OutputError;
 use crate::identify::responses::model::state_space;
 use crate::identify::responses::rational::MotorFit;
-use crate::lti::{StateSpace, TransferFunction};
+use crate::lti::{CoefficientCovariance, StateSpace, TransferFunction};
 use crate::record::{Axis, Campaign, Tip, TipQuantity};
 use crate::replay::{ModalArm, Parameter};
 
@@ -30,6 +31,8 @@ pub struct TipModel {
     /// Delay of the tip's readings relative to the motor's \[s\], not part of `function`;
     /// `None` if it is not estimated.
     pub delay_s: Option<f64>,
+    /// Covariance of the coefficients and of the delay; `None` without a covariance of the whole model.
+    pub covariance: Option<CoefficientCovariance>,
 }
 
 /// Linear models of drive and beam, without dry friction.
@@ -41,6 +44,8 @@ pub struct LinearModels {
     pub motor: Option<TransferFunction>,
     /// Delay of the command \[s\], not part of `motor`; `None` if the data do not show one.
     pub motor_delay: Option<Estimate>,
+    /// Covariance of the coefficients of `motor` and of `motor_delay`; `None` without a covariance of the whole model.
+    pub motor_covariance: Option<CoefficientCovariance>,
     /// One model for each tip, in order; empty if there is no model of the beam.
     pub tips: Vec<TipModel>,
     /// State space model from the command to the angles of the motor and of each tip that
@@ -62,20 +67,27 @@ impl LinearModels {
 
     fn of_arm(campaign: &Campaign, arm: &ModalArm, oe: &OutputError, constant: f64) -> Self {
         let tips = campaign.channels.tips.iter().enumerate();
-        let tip = |(i, tip): (usize, &Tip)| {
+        let of_tip = |i: usize, tip: &Tip, arm: &ModalArm| {
             let mut function = arm.tip_function(i);
             match (tip.quantity, tip.calibrated) {
                 (TipQuantity::Angle, _) | (TipQuantity::Deflection, true) => {}
                 (TipQuantity::Acceleration, _) => function.num.extend([0.0, 0.0]),
                 (TipQuantity::Deflection, false) => function = less_one(&function),
             }
-            let lag = Parameter::TipLag(i).of(arm);
-            TipModel { function, delay_s: Some(lag) }
+            (function, Parameter::TipLag(i).of(arm))
         };
+        let tip = |(i, tip): (usize, &Tip)| {
+            let (function, lag) = of_tip(i, tip, arm);
+            let covariance = coefficient_covariance(oe, |arm| of_tip(i, tip, arm));
+            TipModel { function, delay_s: Some(lag), covariance }
+        };
+        let of_motor =
+            |arm: &ModalArm| (arm.motor_function(constant), Parameter::CommandLag.of(arm));
         Self {
             source: ModelSource::Arm,
             motor: Some(arm.motor_function(constant)),
             motor_delay: oe.estimate(Parameter::CommandLag),
+            motor_covariance: coefficient_covariance(oe, of_motor),
             tips: tips.map(tip).collect(),
             state_space: Some(arm.state_space(constant, &angles(campaign), unit(campaign))),
         }
@@ -84,13 +96,18 @@ impl LinearModels {
     fn of_fits(campaign: &Campaign, methods: &Methods, constant: f64) -> Self {
         let beam = methods.beam_model.as_ref();
         let functions = beam.map_or(&[][..], |b| &b.transfer_functions);
-        let tip = |g: &TransferFunction| TipModel { function: g.clone(), delay_s: None };
+        let tip = |g: &TransferFunction| TipModel {
+            function: g.clone(),
+            delay_s: None,
+            covariance: None,
+        };
         let joined =
             |m: &MotorFit| state_space(m, constant, beam, &angles(campaign), unit(campaign));
         Self {
             source: ModelSource::Responses,
             motor: methods.motor_model.as_ref().map(|m| m.transfer_function.clone()),
             motor_delay: methods.motor_model.as_ref().and_then(|m| m.delay_s),
+            motor_covariance: None,
             tips: functions.iter().map(tip).collect(),
             state_space: methods.motor_model.as_ref().map(joined),
         }
@@ -107,6 +124,20 @@ impl LinearModels {
         let tip = self.tips.get(tip)?;
         Some(delayed(&tip.function, tip.delay_s.unwrap_or(0.0), omega_rad_s))
     }
+}
+
+/// Covariance of the coefficients and of the delay of a model of the arm; `None` if a change of a parameter changes the
+/// number of coefficients.
+fn coefficient_covariance(
+    oe: &OutputError,
+    of: impl Fn(&ModalArm) -> (TransferFunction, f64),
+) -> Option<CoefficientCovariance> {
+    let coefficients = |arm: &ModalArm| {
+        let (function, delay_s) = of(arm);
+        let all = function.num.iter().chain(&function.den).copied().chain([delay_s]);
+        DVector::from_iterator(function.num.len() + function.den.len() + 1, all)
+    };
+    oe.covariance_of(coefficients).map(|matrix| CoefficientCovariance { matrix })
 }
 
 fn delayed(function: &TransferFunction, delay_s: f64, omega_rad_s: f64) -> Complex64 {

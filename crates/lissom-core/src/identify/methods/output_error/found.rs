@@ -1,6 +1,6 @@
 //! Input and result of the output-error method.
 
-use nalgebra::DMatrix;
+use nalgebra::{DMatrix, DVector};
 use num_complex::Complex64;
 
 use crate::identify::estimate::Estimate;
@@ -81,6 +81,29 @@ impl OutputError {
     pub fn estimate_of(&self, of: impl Fn(&ModalArm) -> f64) -> Estimate {
         let std = propagated(&self.arm, &self.parameters, &self.covariance, SLOPE_STEP, &of);
         Estimate { value: of(&self.arm), std }
+    }
+
+    /// Covariance `G·C·Gᵀ` of quantities of the arm, from the covariance C of the parameters and the derivatives G, which are
+    /// differences over half a standard error of each parameter to either side. `None` if a changed arm has another number
+    /// of them.
+    pub(crate) fn covariance_of(
+        &self,
+        of: impl Fn(&ModalArm) -> DVector<f64>,
+    ) -> Option<DMatrix<f64>> {
+        let count = of(&self.arm).len();
+        let mut slopes = DMatrix::zeros(count, self.parameters.len());
+        for (i, parameter) in self.parameters.iter().enumerate() {
+            let half = SLOPE_STEP * standard_error(&self.covariance, i);
+            let (half, [above, below]) = beside(&self.arm, *parameter, half);
+            let (above, below) = (of(&above), of(&below));
+            if above.len() != count || below.len() != count {
+                return None;
+            }
+            if half > 0.0 {
+                slopes.set_column(i, &((above - below) / (2.0 * half)));
+            }
+        }
+        Some(&slopes * &self.covariance * slopes.transpose())
     }
 
     /// Variances `E|Δ|²` of quantities of the arm, from the parameters' covariance. The derivatives are differences
