@@ -18,6 +18,8 @@ export interface PanelView {
 const LINE_WIDTH = 1.6;
 const MARKER_RADIUS = 3.6;
 const SHADE = 0.16;
+/** Pixels up and down for each pixel to the right, in the mean, from which a line is drawn in columns. */
+const DENSE = 8;
 /** The part of the distance between neighbours that a column fills. */
 const COLUMN_FILL = 0.7;
 
@@ -40,7 +42,13 @@ export function draw(u: uPlot, view: PanelView, colours: Colours): void {
     else if (style !== "points") {
       if (trace.low.length > 0) ribbon(ctx, trace, toX, toY);
       ctx.setLineDash(dashOf(trace.of.role, style).map((length) => length * ratio));
-      line(ctx, trace, toX, toY, style === "steps");
+      const [from, to] = shownPoints(trace, u);
+      const path = trace.x.slice(from, to).map((x, k): Point => {
+        const y = trace.y[from + k];
+        return [toX(x), y == null ? null : toY(y)];
+      });
+      if (style === "line" && trace.rises && isDense(path, bbox.width)) denseLine(ctx, path, bbox, ratio);
+      else line(ctx, path, style === "steps");
       ctx.setLineDash([]);
     }
   }
@@ -88,24 +96,78 @@ function shade(
   }
 }
 
-function line(ctx: CanvasRenderingContext2D, trace: ShownTrace, toX: Place, toY: Place, steps: boolean): void {
+/** A point of a line on the screen; a line stops where one is missing. */
+type Point = readonly [number, number | null];
+
+function line(ctx: CanvasRenderingContext2D, path: readonly Point[], steps: boolean): void {
   ctx.beginPath();
   let before: number | null = null;
-  trace.x.forEach((x, k) => {
-    const value = trace.y[k];
-    if (value === null || value === undefined) {
+  for (const [px, py] of path) {
+    if (py === null) {
       before = null;
-      return;
+      continue;
     }
-    const [px, py] = [toX(x), toY(value)];
     if (before === null) ctx.moveTo(px, py);
     else {
       if (steps) ctx.lineTo(px, before);
       ctx.lineTo(px, py);
     }
     before = py;
-  });
+  }
   ctx.stroke();
+}
+
+/** Places of the points of a line that are shown, with one more on either side; all of a line that does not rise. */
+function shownPoints(trace: ShownTrace, u: uPlot): [number, number] {
+  const { min, max } = u.scales["x"] ?? {};
+  if (!trace.rises || min == null || max == null) return [0, trace.x.length];
+  return [Math.max(firstFrom(trace.x, min) - 1, 0), Math.min(firstFrom(trace.x, max) + 1, trace.x.length)];
+}
+
+/** Place of the first of rising abscissae that is not below a value. */
+function firstFrom(xs: readonly number[], value: number): number {
+  let [low, high] = [0, xs.length];
+  while (low < high) {
+    const middle = (low + high) >> 1;
+    if ((xs[middle] as number) < value) low = middle + 1;
+    else high = middle;
+  }
+  return low;
+}
+
+/** Whether a line goes up and down so much that it covers columns of pixels: its strokes would take many times as long. */
+function isDense(path: readonly Point[], width: number): boolean {
+  let travel = 0;
+  path.forEach(([, y], k) => {
+    const before = path[k - 1]?.[1];
+    if (y !== null && before != null) travel += Math.abs(y - before);
+  });
+  return travel > DENSE * width;
+}
+
+/** A dense line: for each column of pixels the range of its values. */
+function denseLine(ctx: CanvasRenderingContext2D, path: readonly Point[], bbox: uPlot.BBox, ratio: number): void {
+  const half = (LINE_WIDTH / 2) * ratio;
+  const [first, count] = [Math.floor(bbox.left), Math.ceil(bbox.width) + 1];
+  const low = new Float64Array(count).fill(Number.POSITIVE_INFINITY);
+  const high = new Float64Array(count).fill(Number.NEGATIVE_INFINITY);
+  const reach = (column: number, a: number, b: number) => {
+    if (column < 0 || column >= count) return;
+    low[column] = Math.min(low[column] as number, a, b);
+    high[column] = Math.max(high[column] as number, a, b);
+  };
+  path.forEach(([x, y], k) => {
+    const [x0, y0] = path[k - 1] ?? [x, y];
+    if (y === null || y0 === null) return;
+    const [from, to] = [Math.floor(x0) - first, Math.floor(x) - first];
+    const at = (place: number) => (x > x0 ? y0 + ((y - y0) * (Math.min(Math.max(place, x0), x) - x0)) / (x - x0) : y);
+    if (from === to) reach(to, y0, y);
+    else for (let c = Math.max(from, 0); c <= Math.min(to, count - 1); c++) reach(c, at(first + c), at(first + c + 1));
+  });
+  for (let c = 0; c < count; c++) {
+    const [bottom, top] = [low[c] as number, high[c] as number];
+    if (bottom <= top) ctx.fillRect(first + c, bottom - half, 1, top - bottom + 2 * half);
+  }
 }
 
 /** The area between lower and upper ends of a line. */

@@ -270,7 +270,8 @@ export class Figure implements Follower {
       legend: { show: false },
       cursor: {
         sync: { key: this.key, setSeries: false },
-        drag: { x: true, y: false, setScale: true },
+        // The figure sets the scales itself, of all panels at once: each is then drawn once.
+        drag: { x: true, y: false, setScale: false },
         points: { show: false },
       },
       scales: {
@@ -285,12 +286,24 @@ export class Figure implements Follower {
       padding: [8, 14, 0, 0],
       hooks: {
         draw: [(u) => draw(u, this.views[k] ?? view, palette)],
+        setSelect: [(u) => this.selected(u)],
         setScale: [(u, key) => this.scaled(u, key)],
         setCursor: [(u) => this.pointed(u)],
       },
     };
     // The data are the ends of the axes: a double click shows them.
     return new uPlot(options, [[...this.full], [...rangeOfY]], this.frames);
+  }
+
+  /** A part is chosen by dragging; panels that share the cursor repeat it without an event. */
+  private selected(u: uPlot): void {
+    const { left, width } = u.select;
+    if (width <= 0 || u.cursor.event == null) return;
+    const range: Range = [u.posToVal(left, "x"), u.posToVal(left + width, "x")];
+    queueMicrotask(() => {
+      for (const plot of this.plots) plot.setSelect({ left: 0, top: 0, width: 0, height: 0 }, false);
+      this.show(range);
+    });
   }
 
   private scaled(u: uPlot, key: string): void {
@@ -340,7 +353,6 @@ export class Figure implements Follower {
         plot.setScale("x", { min: this.shown[0], max: this.shown[1] });
         plot.setScale("y", { min: bottom, max: top });
       });
-      plot.redraw(false);
     });
   }
 
