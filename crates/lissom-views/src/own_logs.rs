@@ -115,7 +115,7 @@ fn motion(
 fn balance(names: UnitNames, torque: &TorqueRun) -> LinePlot {
     let time = || torque.time_s.clone();
     let mut plot = LinePlot::new("", Axis::linear("time (s)"), torque_axis(names))
-        .trace(Trace::line("logged torque", Role::Raw, time(), torque.logged_nm.clone()));
+        .trace(Trace::line(logged(names), Role::Raw, time(), torque.logged_nm.clone()));
     let terms = [
         ("inertia", &torque.terms.inertia_nm),
         ("viscous friction", &torque.terms.viscous_nm),
@@ -133,6 +133,11 @@ fn balance(names: UnitNames, torque: &TorqueRun) -> LinePlot {
 
 fn torque_axis(names: UnitNames) -> Axis {
     Axis::linear(format!("{} ({})", torque_word(names), names.torque_unit()))
+}
+
+/// Name of the trace of the torque that the command gives.
+fn logged(names: UnitNames) -> String {
+    format!("logged {}", torque_word(names))
 }
 
 fn torque_word(names: UnitNames) -> &'static str {
@@ -177,7 +182,7 @@ pub(crate) fn cycle_figures(
             .plot(
                 LinePlot::new("", axis(), torque_axis(names))
                     .trace(Trace::line(
-                        "logged torque",
+                        logged(names),
                         Role::Raw,
                         time(),
                         part(&|k| torque.logged_nm[k]),

@@ -69,7 +69,7 @@ export class Channels {
         more: [this.kind(kind, log), this.hold(setup)],
       },
       { id: "motor", label: "Motor", role: "motor", pick: setup.motor, set: (to, pick) => (to.motor = pick && ofMotor(pick)) },
-      { id: "speed", label: "Speed, for comparison", role: "speed", pick: setup.speed, set: (to, pick) => (to.speed = pick) },
+      { id: "speed", label: "Speed of the motor, only compared", role: "speed", pick: setup.speed, set: (to, pick) => (to.speed = pick) },
       ...setup.tips.map((tip, k) => ({
         id: `tip-${k}`,
         label: `Point of the arm ${k + 1}`,
@@ -225,7 +225,7 @@ export class Channels {
     run.value = setup.run;
     run.addEventListener("change", () => void this.store.say((to) => (to.run = run.value)));
     const labels = h("div", { class: "field" }, h("label", { for: "run" }, "Column that tells runs apart"), run);
-    const texts = [number("header_row", "Row of a text with the names"), number("skip_rows", "Rows at its top that do not count")];
+    const texts = [number("header_row", "Row with the names of the columns"), number("skip_rows", "Rows at the top to skip")];
     return h("details", {}, h("summary", {}, "How logs are read"), h("div", { class: "form" }, ...fields, labels, ...texts));
   }
 }

@@ -79,6 +79,9 @@ impl UnitError {
                 Some(name) => format!("did you mean `{name}`?"),
                 None => "write units as in \"mA\", \"deg\" or \"lbf*in/A\", with * for products and / for quotients".to_owned(),
             }),
+            Self::Syntax { found: Some(','), .. } => {
+                Some("write numbers with a point, as in \"0.2 N*m/A\"".to_owned())
+            }
             Self::Syntax { .. } => {
                 Some("write * for products and / for quotients, as in \"N*m^2\"".to_owned())
             }

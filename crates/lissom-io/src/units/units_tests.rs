@@ -124,6 +124,12 @@ fn errors_say_what_was_found_and_wanted() {
         Some("write * for products and / for quotients, as in \"N*m^2\""),
     );
     fails(
+        "0,2 N*m/A",
+        Dimension::TORQUE,
+        "\"0,2 N*m/A\" is not a unit: unexpected `,`",
+        Some("write numbers with a point, as in \"0.2 N*m/A\""),
+    );
+    fails(
         "7 N*",
         Dimension::TORQUE,
         "\"7 N*\" is not a unit: it ends too early",
