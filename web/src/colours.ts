@@ -35,13 +35,15 @@ export function dashOf(role: string, style: string): readonly number[] {
   return style === "dashes" ? [6, 4] : (DASHES[role] ?? []);
 }
 
-export type Marker = "circle" | "square" | "diamond" | "up" | "down";
+export type Marker = "circle" | "square" | "diamond" | "up" | "down" | "cross" | "ring";
 
 const MARKERS: Readonly<Record<string, Marker>> = {
   raw: "square",
   corrected: "circle",
   fitted: "diamond",
   truth: "up",
+  pole: "cross",
+  zero: "ring",
   other0: "down",
   other1: "diamond",
   other2: "up",
@@ -54,14 +56,15 @@ export function markerOf(role: string): Marker {
 
 /** Adds the outline of a marker of about radius `r` to the path. */
 export function outline(ctx: CanvasRenderingContext2D, marker: Marker, x: number, y: number, r: number): void {
-  if (marker === "circle") {
+  if (marker === "circle" || marker === "ring") {
     ctx.moveTo(x + r, y);
     ctx.arc(x, y, r, 0, 2 * Math.PI);
     return;
   }
   const side = 0.88 * r;
   const tip = 1.2 * r;
-  const corners: Record<Exclude<Marker, "circle">, readonly (readonly [number, number])[]> = {
+  const [arm, width] = [1.1 * r, 0.28 * r];
+  const corners: Record<Exclude<Marker, "circle" | "ring">, readonly (readonly [number, number])[]> = {
     square: [
       [-side, -side],
       [side, -side],
@@ -78,6 +81,20 @@ export function outline(ctx: CanvasRenderingContext2D, marker: Marker, x: number
       [0, -tip],
       [1.1 * r, 0.8 * r],
       [-1.1 * r, 0.8 * r],
+    ],
+    cross: [
+      [-arm, width - arm],
+      [width - arm, -arm],
+      [0, -width],
+      [arm - width, -arm],
+      [arm, width - arm],
+      [width, 0],
+      [arm, arm - width],
+      [arm - width, arm],
+      [0, width],
+      [width - arm, arm],
+      [-arm, arm - width],
+      [-width, 0],
     ],
     down: [
       [0, tip],

@@ -260,9 +260,11 @@ function points(
       if (y == null || trace.flagged.has(k) !== flagged) return;
       outline(ctx, marker, toX(x), toY(y), MARKER_RADIUS * ratio);
     });
-    ctx.lineWidth = flagged ? 1.5 * ratio : ratio;
-    ctx.fillStyle = flagged ? colours.paper : colours.of(trace.of.role);
-    ctx.strokeStyle = flagged ? colours.flagged : colours.paper;
+    const isHollow = flagged || marker === "ring";
+    const colour = flagged ? colours.flagged : colours.of(trace.of.role);
+    ctx.lineWidth = isHollow ? 1.6 * ratio : ratio;
+    ctx.fillStyle = isHollow ? colours.paper : colour;
+    ctx.strokeStyle = isHollow ? colour : colours.paper;
     ctx.fill();
     ctx.stroke();
   }

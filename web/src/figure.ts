@@ -15,6 +15,9 @@ import { type UnitChoice, digits, shownAxis, shownTrace, unitOf } from "./units"
 const [ALONE, STACKED] = [300, 210];
 /** Height of the labels below the last panel [px]. */
 const LABELS = 48;
+const LABEL_FONT = "12px system-ui, sans-serif";
+/** Steps of an axis of degrees. */
+const DEGREES = [0.1, 0.2, 0.5, 1, 2, 5, 10, 15, 30, 45, 90, 180, 360, 720];
 /** Smallest part of the axis that can be shown. */
 const ZOOM_MOST = 1e-6;
 let figures = 0;
@@ -196,6 +199,8 @@ export class Figure implements Follower {
 
   /** Draws again: all of it with `anew`, and else only what is within the frames. */
   private restore(anew = false): void {
+    // What it says is in the units before.
+    if (anew) this.readout.textContent = "";
     if (anew || this.plots.length === 0) this.build();
     else this.move(this.shown);
   }
@@ -280,8 +285,8 @@ export class Figure implements Follower {
       },
       series: [{}, { paths: () => null, points: { show: false } }],
       axes: [
-        { ...axis, values: ticks, show: true, size: isLast ? LABELS : 8, ...(isLast ? { label: shownAxis(this.data.x, units).label, labelSize: 20 } : { values: () => [] }) },
-        { ...axis, values: ticks, label: y.label, labelSize: 22, size: 62 },
+        { ...axis, values: ticks, show: true, size: isLast ? LABELS : 8, ...(isLast ? { label: shownAxis(this.data.x, units).label, labelSize: 20, labelFont: LABEL_FONT } : { values: () => [] }) },
+        { ...axis, values: ticks, label: y.label, labelSize: 22, labelFont: LABEL_FONT, size: 62, ...(panel.y.quantity === "degrees" ? { incrs: DEGREES } : {}) },
       ],
       padding: [8, 14, 0, 0],
       hooks: {
@@ -411,7 +416,12 @@ function logTicks(u: uPlot, splits: number[], axis: number): (number | null)[] {
   const decades = Math.log10((scale.max ?? 10) / (scale.min ?? 1));
   const kept = decades <= 0.8 ? [1, 2, 3, 4, 5, 6, 7, 8, 9] : decades <= 2.5 ? [1, 2, 5] : [1];
   const first = (value: number) => value / 10 ** Math.floor(Math.log10(value) + 1e-9);
-  return splits.map((value) => (kept.some((digit) => Math.abs(first(value) - digit) < 1e-6) ? value : null));
+  const named = (some: readonly number[]) =>
+    splits.map((value) => (some.some((digit) => Math.abs(first(value) - digit) < 1e-6) ? value : null));
+  // An axis has two numbers at least.
+  const enough = [kept, [1, 2, 5], [1, 2, 3, 4, 5, 6, 7, 8, 9]].map(named);
+  const isShown = (value: number | null) => value !== null && value >= (scale.min ?? 0) && value <= (scale.max ?? Number.POSITIVE_INFINITY);
+  return enough.find((ticks) => ticks.filter(isShown).length >= 2) ?? splits;
 }
 
 /** Place of the abscissa that is nearest; the abscissae do not fall. */

@@ -6,7 +6,7 @@ import type { FigureData } from "./figure_data";
 export interface Entry {
   readonly label: string;
   readonly role: string;
-  readonly kind: "line" | "points" | "columns" | "area";
+  readonly kind: "line" | "points" | "columns" | "area" | "flagged";
   readonly style: string;
 }
 
@@ -23,6 +23,8 @@ export function entries(data: FigureData): Entry[] {
     }
     for (const { label, role } of [...panel.bands, ...panel.regions]) add({ label, role, style: "", kind: "area" });
   }
+  const isFlagged = data.panels.some(({ traces }) => traces.some(({ flagged }) => flagged && flagged.length > 0));
+  if (isFlagged) add({ label: "flagged: a finding affects the point", role: "flagged", style: "", kind: "flagged" });
   return found;
 }
 
@@ -34,6 +36,16 @@ export class Legend {
   constructor(all: readonly Entry[], changed: () => void) {
     this.element.className = "legend";
     for (const entry of all) {
+      if (entry.kind === "flagged") {
+        // Flagged points belong to their series.
+        const note = document.createElement("span");
+        const canvas = document.createElement("canvas");
+        canvas.setAttribute("aria-hidden", "true");
+        note.append(canvas, entry.label);
+        this.swatches.push(() => swatch(canvas, entry));
+        this.element.append(note);
+        continue;
+      }
       const button = document.createElement("button");
       button.type = "button";
       button.setAttribute("aria-pressed", "true");
@@ -77,10 +89,13 @@ function swatch(canvas: HTMLCanvasElement, entry: Entry): void {
     ctx.moveTo(1, height / 2);
     ctx.lineTo(width - 1, height / 2);
     ctx.stroke();
-  } else if (entry.kind === "points") {
+  } else if (entry.kind === "points" || entry.kind === "flagged") {
+    const marker = markerOf(entry.role);
     ctx.beginPath();
-    outline(ctx, markerOf(entry.role), width / 2, height / 2, 4);
-    ctx.fill();
+    outline(ctx, marker, width / 2, height / 2, 4);
+    if (entry.kind === "flagged") ctx.strokeStyle = colours().flagged;
+    if (entry.kind === "flagged" || marker === "ring") ctx.stroke();
+    else ctx.fill();
   } else {
     ctx.globalAlpha = entry.kind === "area" ? 0.3 : 1;
     ctx.fillRect(4, 2, width - 8, height - 4);

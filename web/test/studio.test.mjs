@@ -37,6 +37,9 @@ test("a first use: sample, identify, read, zoom, save", async (t) => {
   const server = await studio(chromium, t);
   const { page, said } = await server.page();
   assert.equal(new URL(page.url()).hash, "");
+  const chooser = page.waitForEvent("filechooser");
+  await page.locator("#open").click();
+  await chooser;
   await page.locator("#sample").click();
   await identified(page, "normal");
   await page.getByText(/^Coulomb friction 0\.1000/).waitFor();

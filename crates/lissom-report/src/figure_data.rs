@@ -62,7 +62,7 @@ pub struct PanelData {
 pub struct TraceData {
     /// The label in the legend.
     pub label: String,
-    /// `raw`, `corrected`, `fitted`, `truth`, or `other0` and so on.
+    /// `raw`, `corrected`, `fitted`, `truth`, `pole`, `zero`, or `other0` and so on.
     pub role: String,
     /// `line`, `dashes`, `steps`, `points` or `columns`.
     pub style: &'static str,
@@ -252,6 +252,8 @@ impl Role {
             Self::Corrected => "corrected".to_owned(),
             Self::Fitted => "fitted".to_owned(),
             Self::Truth => "truth".to_owned(),
+            Self::Pole => "pole".to_owned(),
+            Self::Zero => "zero".to_owned(),
             Self::Other(k) => format!("other{}", k % 4),
         }
     }

@@ -82,7 +82,12 @@ pub(crate) fn header(
 impl Sample {
     fn draw(self, canvas: &mut Canvas, x: f64, y: f64) {
         let middle = x + SAMPLE / 2.0;
-        let white = Stroke { colour: WHITE, width: 0.8, dash: None };
+        let marker = |canvas: &mut Canvas, role: Role| {
+            let [fill, colour] = role.marker_colours();
+            let width = if fill == WHITE { 1.6 } else { 0.8 };
+            let stroke = Stroke { colour, width, dash: None };
+            canvas.markers(role.marker(), [(middle, y)], fill, stroke);
+        };
         let box_of = |height: f64| Rect {
             left: x + 4.0,
             top: y - height / 2.0,
@@ -95,15 +100,13 @@ impl Sample {
                 let stroke = Stroke { colour: role.colour(), width: LINE_WIDTH, dash };
                 canvas.lines([[(x, y), (x + SAMPLE, y)]], stroke);
             }
-            Self::Points(role) => {
-                canvas.markers(role.marker(), [(middle, y)], role.colour(), white);
-            }
+            Self::Points(role) => marker(canvas, role),
             Self::PointsWithBars(role) => {
                 let stroke = Stroke { colour: role.colour(), width: 1.3, dash: None };
                 let (top, bottom, cap) = (y - 8.5, y + 8.5, 3.5);
                 let caps = [top, bottom].map(|y| [(middle - cap, y), (middle + cap, y)]);
                 canvas.lines([[(middle, top), (middle, bottom)], caps[0], caps[1]], stroke);
-                canvas.markers(role.marker(), [(middle, y)], role.colour(), white);
+                marker(canvas, role);
             }
             Self::Column(role) => canvas.rect(box_of(12.0), role.colour(), 0.75),
             Self::Band(role) => {

@@ -16,6 +16,10 @@ pub enum Role {
     Fitted,
     /// The true values, where they are known: green, dashed.
     Truth,
+    /// Poles of a model: vermilion crosses.
+    Pole,
+    /// Zeros of a model: blue rings.
+    Zero,
     /// Anything else: the colours left over, in turn.
     Other(u8),
 }
@@ -49,6 +53,10 @@ pub(crate) enum Marker {
     Diamond,
     Up,
     Down,
+    /// ×.
+    Cross,
+    /// ○, hollow.
+    Ring,
 }
 
 /// Half the size of a marker.
@@ -62,11 +70,32 @@ const HALF_BASE: f64 = 1.1 * MARKER_RADIUS;
 /// From the centre to the base of a triangle.
 const BASE: f64 = 2.0 * MARKER_RADIUS - TIP;
 
+/// Half the length of the arms of a cross, along the axes.
+const ARM: f64 = 1.1 * MARKER_RADIUS;
+/// Half the width of its arms, along the axes.
+const WIDTH: f64 = 0.28 * MARKER_RADIUS;
+/// The corners of a cross.
+const CROSS: [(f64, f64); 12] = [
+    (-ARM, WIDTH - ARM),
+    (WIDTH - ARM, -ARM),
+    (0.0, -WIDTH),
+    (ARM - WIDTH, -ARM),
+    (ARM, WIDTH - ARM),
+    (WIDTH, 0.0),
+    (ARM, ARM - WIDTH),
+    (ARM - WIDTH, ARM),
+    (0.0, WIDTH),
+    (WIDTH - ARM, ARM),
+    (-ARM, ARM - WIDTH),
+    (-WIDTH, 0.0),
+];
+
 impl Marker {
     /// The corners relative to the centre, y downward; none for a circle of [`MARKER_RADIUS`].
     pub(crate) fn corners(self) -> &'static [(f64, f64)] {
         match self {
-            Self::Circle => &[],
+            Self::Circle | Self::Ring => &[],
+            Self::Cross => &CROSS,
             Self::Square => &[(-SIDE, -SIDE), (SIDE, -SIDE), (SIDE, SIDE), (-SIDE, SIDE)],
             Self::Diamond => &[(0.0, -TIP), (TIP, 0.0), (0.0, TIP), (-TIP, 0.0)],
             Self::Up => &[(0.0, -TIP), (HALF_BASE, BASE), (-HALF_BASE, BASE)],
@@ -98,6 +127,8 @@ impl Role {
             Self::Raw => Colour::rgb(0xd5, 0x5e, 0x00),
             Self::Corrected => Colour::rgb(0x00, 0x72, 0xb2),
             Self::Fitted => Colour::rgb(0x1a, 0x1a, 0x1a),
+            Self::Pole => Self::Raw.colour(),
+            Self::Zero => Self::Corrected.colour(),
             Self::Truth => Colour::rgb(0x00, 0x9e, 0x73),
             Self::Other(k) => [
                 Colour::rgb(0xaa, 0x3f, 0x86),
@@ -121,12 +152,22 @@ impl Role {
         }
     }
 
+    /// Colours of the area and of the outline of its markers.
+    pub(crate) fn marker_colours(self) -> [Colour; 2] {
+        match self.marker() {
+            Marker::Ring => [WHITE, self.colour()],
+            _ => [self.colour(), WHITE],
+        }
+    }
+
     pub(crate) fn marker(self) -> Marker {
         match self {
             Self::Raw => Marker::Square,
             Self::Corrected => Marker::Circle,
             Self::Fitted => Marker::Diamond,
             Self::Truth => Marker::Up,
+            Self::Pole => Marker::Cross,
+            Self::Zero => Marker::Ring,
             Self::Other(k) => {
                 [Marker::Down, Marker::Diamond, Marker::Up, Marker::Circle][usize::from(k) % 4]
             }

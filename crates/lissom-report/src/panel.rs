@@ -239,12 +239,10 @@ impl Panel {
             Stroke { colour: FLAGGED, width: 1.5, dash: None },
         );
         if all {
-            canvas.markers(
-                role.marker(),
-                places(false),
-                role.colour(),
-                Stroke { colour: WHITE, width: 0.8, dash: None },
-            );
+            let [fill, colour] = role.marker_colours();
+            let width = if fill == WHITE { 1.6 } else { 0.8 };
+            let stroke = Stroke { colour, width, dash: None };
+            canvas.markers(role.marker(), places(false), fill, stroke);
         }
     }
 }

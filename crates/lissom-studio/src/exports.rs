@@ -3,9 +3,11 @@
 use std::fs;
 use std::path::Path;
 
+use lissom_io::ResultFile;
 use lissom_io::export::{
     c_files, export_model_of_result, mat_file, matlab_script, mjcf, python_script,
 };
+use lissom_io::result::AxisName;
 
 use crate::problem::Problem;
 
@@ -47,8 +49,16 @@ pub(crate) fn export(folder: &Path, name: &str) -> Result<Export, Problem> {
         }
         "arm.toml" => {
             let text = fs::read(folder.join(name)).map_err(|_| {
-                let error = "this result has no arm that can be simulated";
-                Problem::input(error, Some("plan with an arm.toml of known dimensions".to_owned()))
+                let is_linear = ResultFile::read(&result).is_ok_and(|r| r.axis == AxisName::Linear);
+                let (error, hint) = if is_linear {
+                    let error =
+                        "plans and the virtual rig are of rotary axes, and this axis is linear";
+                    (error, "choose a result of a rotary axis")
+                } else {
+                    let error = "this result has no arm that can be simulated";
+                    (error, "see its findings, or plan with an arm.toml of known dimensions")
+                };
+                Problem::input(error, Some(hint.to_owned()))
             })?;
             ("text/plain; charset=utf-8", text)
         }

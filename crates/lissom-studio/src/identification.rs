@@ -134,6 +134,7 @@ fn read(logs: Logs, job: &Job) -> Result<Read, Problem> {
 /// Identifies, and makes the texts of the files.
 fn made(session: &Session, logs: Logs, job: &Job) -> Result<Made, Problem> {
     let is_virtual = matches!(logs, Logs::Virtual(_));
+    let is_described = matches!(logs, Logs::Described { .. });
     let Read { file, campaign, truth } = read(logs, job)?;
     let effort = session.setup.effort.effort();
     let found = |effort, interrupt: Interrupt, stage: &dyn Fn(Stage)| {
@@ -167,6 +168,11 @@ fn made(session: &Session, logs: Logs, job: &Job) -> Result<Made, Problem> {
     };
     let page = report_page::page(&name, content);
     let count = |severity| id.findings.iter().filter(|f| f.severity() == severity).count();
+    let mut setup = session.setup.clone();
+    if is_described {
+        // What was found from the motion is now said: a part of the logs may not show it.
+        setup.say_hold(file.campaign.channels.command.hold);
+    }
     let made = SystemTime::now().duration_since(UNIX_EPOCH).unwrap_or_default();
     Ok(Made {
         entry: ResultEntry {
@@ -179,7 +185,7 @@ fn made(session: &Session, logs: Logs, job: &Job) -> Result<Made, Problem> {
             refusals: count(Severity::Refusal),
             interrupted: id.is_interrupted(),
             planned: is_virtual,
-            setup: session.setup.clone(),
+            setup,
         },
         result: write::json_text(Path::new("result.json"), &result)
             .map_err(lissom_io::Error::from)?,
@@ -235,6 +241,11 @@ fn keep(app: &Shared, made: Made) -> Result<u64, Problem> {
         batch.file(&folder.join(name), text.as_bytes()).map_err(lissom_io::Error::from)?;
     }
     batch.commit().map_err(lissom_io::Error::from)?;
-    app.amend(|session| session.results.push(ResultEntry { id, ..made.entry }))?;
+    app.amend(|session| {
+        if session.setup.hold.is_empty() {
+            session.setup.hold.clone_from(&made.entry.setup.hold);
+        }
+        session.results.push(ResultEntry { id, ..made.entry });
+    })?;
     Ok(id)
 }

@@ -57,6 +57,9 @@ struct ExpectedRow {
     reached: bool,
 }
 
+/// A precision from which on the number is probably meant in percent \[1\].
+const LARGE: f64 = 0.2;
+
 impl Wanted {
     /// Makes a plan.
     pub(crate) fn planned(&self) -> Result<(Planned, PlanView), Problem> {
@@ -88,6 +91,14 @@ impl Wanted {
             }
         };
         let precision = number("the precision", &self.precision, Dimension::NUMBER)?;
+        if precision.is_some_and(|share| share >= LARGE && !self.precision.contains('%')) {
+            let error =
+                format!("the precision {} is more than a few percent", self.precision.trim());
+            return Err(Problem::input(
+                error,
+                Some("write it in percent, as in \"1%\"".to_owned()),
+            ));
+        }
         let within = number("the time", &self.within, Dimension::TIME)?;
         Ok(Wishes {
             precision: precision.map_or(none.precision, Precision::all),

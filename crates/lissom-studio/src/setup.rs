@@ -2,6 +2,7 @@
 
 use std::path::PathBuf;
 
+use lissom::record::Hold;
 use lissom_io::EffortName;
 use lissom_io::inspect::{
     Choice, CommandKey, Description, InspectedChannel, Inspection, LogTrim, Role,
@@ -219,6 +220,17 @@ impl Setup {
             }
         };
         Ok(Some((key, choice)))
+    }
+
+    /// Says how the command acts between its samples, if nothing is said.
+    pub(crate) fn say_hold(&mut self, hold: Hold) {
+        if self.hold.is_empty() {
+            let name = match hold {
+                Hold::Sampled => "sampled",
+                Hold::Measured => "measured",
+            };
+            name.clone_into(&mut self.hold);
+        }
     }
 
     /// Names of channels of the first log that are used, and that `log` does not have.

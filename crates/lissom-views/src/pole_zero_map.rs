@@ -51,8 +51,8 @@ fn map(
         Axis::linear("imaginary part (rad/s)"),
     );
     let plot = plot
-        .trace(trace("poles", Role::Raw, model.poles()?, CoefficientCovariance::of_pole))
-        .trace(trace("zeros", Role::Corrected, model.zeros()?, CoefficientCovariance::of_zero));
+        .trace(trace("poles", Role::Pole, model.poles()?, CoefficientCovariance::of_pole))
+        .trace(trace("zeros", Role::Zero, model.zeros()?, CoefficientCovariance::of_zero));
     let plot = match covariance {
         Some(_) => plot.subtitle("bars: 95 % interval"),
         None => plot,

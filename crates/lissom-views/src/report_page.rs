@@ -24,6 +24,8 @@ use crate::{
 
 /// Most parameters in the summary.
 const MAIN_PARAMETERS: usize = 6;
+/// Why the line of a model has no band.
+const NO_BAND: &str = " It has no band: only the output-error method, where it is accepted, gives the covariance of a whole model.";
 /// Most findings in the summary.
 const MAIN_FINDINGS: usize = 3;
 
@@ -64,11 +66,15 @@ pub fn page(title: &str, content: PageContent<'_>) -> Page {
     if !bode.is_empty() {
         page = page.heading("Frequency responses");
     }
+    let has_bands = result.models.motor_covariance.is_some();
+    let no_band = if has_bands { "" } else { NO_BAND };
     for (_, plot) in &bode {
         page = page.figure(
             plot,
-            "Points: runs, or frequency bands. Line: the model, fitted to the points or computed from the \
-             parameters.",
+            &format!(
+                "Points: runs, or frequency bands. Line: the model, fitted to the points or computed from the \
+                 parameters.{no_band}"
+            ),
         );
     }
     let maps = pole_zero_map::maps(result).into_iter().map(|(_, name, plot)| (name, plot));

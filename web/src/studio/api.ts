@@ -3,7 +3,7 @@
 import type { Problem } from "./types";
 
 const KEY = "lissom-key";
-const NEW_ADDRESS = "Open the address that the command `lissom studio` prints.";
+const NEW_ADDRESS = "Open the address that the command `lissom studio` prints. It works once: for one more page open the file open.html of its folder.";
 const NO_ANSWER = "lissom studio does not answer";
 
 /** An error that the page shows. */

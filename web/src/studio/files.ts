@@ -63,14 +63,15 @@ export class Files {
   render(): void {
     const { logs } = this.store.state;
     const choose = button(logs.length > 0 ? "Add logs…" : "Open logs…", () => this.input.click(), { id: "open", class: "main" });
-    const welcome = h(
+    const welcome = (open: HTMLElement) => h(
       "div",
       { class: "welcome" },
       h("p", {}, "Open or drop logs of a drive: CSV, MATLAB, Parquet, HDF5, MCAP, TDMS, wpilog, xlsx and others. They stay on this machine."),
-      h("div", { class: "row" }, choose, button("Try it with a sample", () => this.sample(), { id: "sample" })),
+      h("div", { class: "row" }, open, button("Try it with a sample", () => this.sample(), { id: "sample" })),
     );
-    const tools = h("div", { class: "row" }, choose);
-    put(this.element, h("h2", {}, "Logs"), this.input, ...(logs.length > 0 ? [this.table(logs), tools] : [welcome]));
+    // An element has one place: the button is in the one that is shown.
+    const shown = logs.length > 0 ? [this.table(logs), h("div", { class: "row" }, choose)] : [welcome(choose)];
+    put(this.element, h("h2", {}, "Logs"), this.input, ...shown);
   }
 
   private table(logs: readonly LogView[]): HTMLElement {

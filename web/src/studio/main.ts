@@ -75,10 +75,10 @@ async function begin(): Promise<void> {
     const { tab } = (state ?? {}) as { tab?: string };
     if (tab && tab in tabs) show(tab);
   });
-  document.addEventListener("visibilitychange", () => {
-    // Without an answer, the next thing that the reader does says so.
-    if (document.visibilityState === "visible") store.refresh().catch(() => undefined);
-  });
+  // Without an answer, the next thing that the reader does says so.
+  const refresh = () => void (document.visibilityState === "visible" && store.refresh().catch(() => undefined));
+  document.addEventListener("visibilitychange", refresh);
+  addEventListener("focus", refresh);
   try {
     await enter();
   } catch (error) {

@@ -74,6 +74,9 @@ export class Motion {
     return (found.length > 0 ? found : log.channels.filter((each) => each !== time && !each.constant)).slice(0, PANELS_MOST);
   }
 
+  /** The log of the figure, the first one of several. */
+  private shownLog = 0;
+
   private async draw(): Promise<void> {
     const main = this.main();
     if (!main?.log) return;
@@ -87,7 +90,9 @@ export class Motion {
     try {
       const data = await this.points(null, PIXELS);
       if (turn !== this.asked) return;
-      const shown = this.figure?.shownRange() ?? null;
+      // The part that is shown stays for the same log.
+      const shown = this.shownLog === main.id ? (this.figure?.shownRange() ?? null) : null;
+      this.shownLog = main.id;
       this.figure?.end();
       this.place.replaceChildren();
       this.figure = new Figure(this.place, data, this.choice, null, {

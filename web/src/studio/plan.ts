@@ -82,9 +82,11 @@ export class Plan {
   private async load(id: number): Promise<void> {
     this.arm.value = sessionStorage.getItem(edited(id)) ?? "";
     if (this.arm.value !== "") return;
-    await this.store.during("", async () => {
+    const loaded = await this.store.during("", async () => {
       this.arm.value = await getText(`/api/results/${id}/files/arm.toml`);
     });
+    // Without an arm there is nothing to plan; the message says why.
+    for (const id of ["plan", "precision", "within"]) document.getElementById(id)?.toggleAttribute("disabled", !loaded);
   }
 
   private async make(): Promise<void> {

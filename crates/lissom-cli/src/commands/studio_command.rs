@@ -18,7 +18,9 @@ pub(crate) fn run(args: &StudioArgs) -> Result<ExitCode, Failure> {
         let file = studio.opener().display();
         printer::line(&format!("lissom studio is in your browser; if it is not, open {file}"));
     } else {
+        let file = studio.opener().display();
         printer::line(&format!("lissom studio: open {}", studio.address()));
+        printer::line(&format!("it works once; for one more page open {file}"));
     }
     printer::line("Ctrl-C ends it; the state is kept");
     studio.run()?;

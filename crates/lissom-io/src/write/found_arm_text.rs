@@ -3,7 +3,7 @@
 use std::f64::consts::SQRT_2;
 use std::fmt::{self, Write as _};
 
-use lissom_core::drive::Coulomb;
+use lissom_core::drive::{Coulomb, DryFriction};
 use lissom_core::identify::FoundArm;
 use lissom_core::record::{Axis, Campaign, CommandQuantity};
 use lissom_core::replay::ModalArm;
@@ -46,9 +46,16 @@ fn put(text: &mut String, arm: &ModalArm, campaign: &Campaign) -> fmt::Result {
     writeln!(text, "[beam]")?;
     beam(text, arm)?;
     let constant = command.torque_per_unit();
-    let [forward, backward] = arm.viscous_nm_s_per_rad;
     writeln!(text, "\n[drive]\ninertia = \"{:?} kg*m^2\"", arm.inertia_kg_m2)?;
-    writeln!(text, "viscous = \"{:?} N*m*s/rad\"", (0.5 * (forward + backward)).max(0.0))?;
+    let [forward, backward] = arm.viscous_nm_s_per_rad.map(|viscous| viscous.max(0.0));
+    if (forward - backward).abs() > 0.0 {
+        writeln!(
+            text,
+            "viscous = {{ forward = \"{forward:?} N*m*s/rad\", backward = \"{backward:?} N*m*s/rad\" }}"
+        )?;
+    } else {
+        writeln!(text, "viscous = \"{forward:?} N*m*s/rad\"")?;
+    }
     writeln!(text, "torque_constant = \"{constant:?} N*m/A\"")?;
     let by_direction = [arm.coulomb_nm + arm.offset_nm, arm.coulomb_nm - arm.offset_nm];
     let [forward, backward] = match Coulomb::by_direction(by_direction[0], by_direction[1]) {
@@ -59,11 +66,55 @@ fn put(text: &mut String, arm: &ModalArm, campaign: &Campaign) -> fmt::Result {
         text,
         "coulomb = {{ forward = \"{forward:?} N*m\", backward = \"{backward:?} N*m\" }}"
     )?;
+    dry_terms(text, arm, [forward, backward])?;
     if let Some(load) = arm.gravity.filter(|load| load.amplitude_nm() > 0.0) {
         let (torque, phase) = (load.amplitude_nm(), load.phase_rad());
         writeln!(text, "\n[load]\ngravity_torque = \"{torque:?} N*m\"\nphase = \"{phase:?} rad\"")?;
     }
     rig(text, arm, campaign, constant)
+}
+
+/// Friction near rest and one ripple, where a joint can have them: where its friction always brakes.
+fn dry_terms(text: &mut String, arm: &ModalArm, [forward, backward]: [f64; 2]) -> fmt::Result {
+    let terms = &arm.dry_terms;
+    let Ok(sliding) = Coulomb::by_direction(forward, backward) else { return Ok(()) };
+    let mut law = DryFriction::from(sliding);
+    if let Some(near) = terms.near_rest {
+        let rest =
+            [forward + near.torque_nm + near.offset_nm, backward + near.torque_nm - near.offset_nm];
+        let with_rest = Coulomb::by_direction(rest[0], rest[1])
+            .and_then(|rest| law.clone().with_rest(rest, near.speed_rad_s, near.falloff));
+        if let Ok(with_rest) = with_rest {
+            law = with_rest;
+            writeln!(
+                text,
+                "rest = {{ friction = {{ forward = \"{:?} N*m\", backward = \"{:?} N*m\" }}, velocity = \"{:?} \
+                 rad/s\", falloff = \"{}\" }}",
+                rest[0],
+                rest[1],
+                near.speed_rad_s,
+                near.falloff.name()
+            )?;
+        } else {
+            writeln!(text, "# Left out: friction near rest, which would drive the joint.")?;
+        }
+    }
+    if let [wave] = terms.ripples.as_slice() {
+        let share = wave.cosine_nm.hypot(wave.sine_nm) / (0.5 * (forward + backward));
+        let phase_rad = (-wave.sine_nm).atan2(wave.cosine_nm);
+        if law.with_ripple(share, wave.per_rad, phase_rad).is_ok() {
+            writeln!(
+                text,
+                "ripple = {{ share = {share:?}, per_turn = {:?}, phase = \"{phase_rad:?} rad\" }}",
+                wave.per_rad
+            )?;
+        } else {
+            writeln!(text, "# Left out: a ripple of friction, which would drive the joint.")?;
+        }
+    } else if !terms.ripples.is_empty() {
+        writeln!(text, "# Left out: ripples of friction; a joint here has one.")?;
+    }
+    Ok(())
 }
 
 /// The beam by its modes. Where the tips do not show all of them, the points are the oscillators themselves.
@@ -129,4 +180,88 @@ fn noise(samples: &[f64]) -> f64 {
     let thirds = samples.windows(4).map(|s| s[3] - 3.0 * s[2] + 3.0 * s[1] - s[0]);
     let (sum, count) = thirds.fold((0.0, 0), |(sum, count), d| (sum + d * d, count + 1));
     (sum / f64::from(count.max(1)) / THIRD_DIFFERENCE).sqrt()
+}
+
+#[cfg(test)]
+mod tests {
+    use std::path::Path;
+
+    use lissom_core::drive::Falloff;
+    use lissom_core::identify::ArmSource;
+    use lissom_core::record::{Channels, Command, Hold, Run, TimeBase};
+    use lissom_core::replay::{DryTerms, NearRest, Ripple};
+    use lissom_core::rig::JointFriction;
+
+    use super::*;
+    use crate::ArmFile;
+
+    fn campaign() -> Campaign {
+        let command = Command {
+            quantity: CommandQuantity::Current,
+            hold: Hold::Sampled,
+            torque_per_command: Some(0.5),
+            back_emf_viscous: 0.0,
+            limit: None,
+        };
+        let channels = Channels { axis: Axis::Rotary, command, tips: Vec::new() };
+        let wave: Vec<f64> = (0..500).map(|k| (0.05 * f64::from(k)).sin()).collect();
+        let time =
+            TimeBase { start_s: 0.0, sample_time_s: 1e-3, jitter_max_s: 0.0, jitter_rms_s: 0.0 };
+        let run = Run::new("run", time, wave.clone(), wave, Vec::new()).unwrap();
+        Campaign::new(channels, vec![run]).unwrap()
+    }
+
+    fn found(near_nm: f64) -> FoundArm {
+        let near = NearRest {
+            torque_nm: near_nm,
+            offset_nm: 0.01,
+            speed_rad_s: 0.2,
+            falloff: Falloff::Gaussian,
+        };
+        let ripple = Ripple { per_rad: 7.0, cosine_nm: 0.03, sine_nm: -0.04 };
+        let arm = ModalArm {
+            inertia_kg_m2: 0.02,
+            viscous_nm_s_per_rad: [0.03, 0.05],
+            coulomb_nm: 0.4,
+            offset_nm: 0.02,
+            dry_terms: DryTerms { near_rest: Some(near), ripples: vec![ripple] },
+            modes: Vec::new(),
+            shapes: Vec::new(),
+            at_points_per_s: Vec::new(),
+            gravity: None,
+            command_lag_s: 0.0,
+            tip_lags_s: Vec::new(),
+        };
+        let source = ArmSource::Regression;
+        FoundArm { arm, coupling_alone_nm_per_rad: Vec::new(), source, torque_used: None }
+    }
+
+    #[test]
+    fn the_friction_law_is_that_of_the_arm() {
+        let text = found_arm_text(&found(-0.2), &campaign()).unwrap();
+        let file = ArmFile::from_text(Path::new("arm.toml"), &text).unwrap();
+        let rig = file.rig(Path::new("arm.toml")).unwrap();
+        let JointFriction::Dry(law) = &rig.scene.friction else { panic!("{text}") };
+        let arm = found(-0.2).arm;
+        for (velocity, angle) in [(0.0, 0.3), (0.1, -1.0), (0.4, 2.0), (30.0, 0.1)] {
+            let limits = law.at(velocity, angle);
+            let near = -0.2 * (-(velocity / 0.2_f64).powi(2)).exp();
+            let apart = 0.01 * (-(velocity / 0.2_f64).powi(2)).exp();
+            let (sine, cosine) = (7.0 * angle).sin_cos();
+            let wave = 0.03 * cosine - 0.04 * sine;
+            let [forward, backward] = [1.0, -1.0].map(|direction| {
+                arm.coulomb_nm + near + wave + direction * (arm.offset_nm + apart)
+            });
+            let viscous = 0.5 * (0.03 - 0.05) * velocity;
+            assert!((limits.forward() - forward - viscous).abs() < 1e-9, "{velocity} {limits:?}");
+            assert!((limits.backward() - backward + viscous).abs() < 1e-9, "{velocity} {limits:?}");
+        }
+    }
+
+    #[test]
+    fn friction_that_would_drive_is_left_out_and_said() {
+        let text = found_arm_text(&found(-0.5), &campaign()).unwrap();
+        assert!(text.contains("# Left out: friction near rest"), "{text}");
+        assert!(ArmFile::from_text(Path::new("arm.toml"), &text).is_ok(), "{text}");
+    }
 }
