@@ -63,7 +63,7 @@ export function outline(ctx: CanvasRenderingContext2D, marker: Marker, x: number
   }
   const side = 0.88 * r;
   const tip = 1.2 * r;
-  const [arm, width] = [1.1 * r, 0.28 * r];
+  const [arm, width] = [1.1 * r, 0.42 * r];
   const corners: Record<Exclude<Marker, "circle" | "ring">, readonly (readonly [number, number])[]> = {
     square: [
       [-side, -side],

@@ -73,7 +73,7 @@ const BASE: f64 = 2.0 * MARKER_RADIUS - TIP;
 /// Half the length of the arms of a cross, along the axes.
 const ARM: f64 = 1.1 * MARKER_RADIUS;
 /// Half the width of its arms, along the axes.
-const WIDTH: f64 = 0.28 * MARKER_RADIUS;
+const WIDTH: f64 = 0.42 * MARKER_RADIUS;
 /// The corners of a cross.
 const CROSS: [(f64, f64); 12] = [
     (-ARM, WIDTH - ARM),
