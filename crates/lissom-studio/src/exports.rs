@@ -1,7 +1,7 @@
 //! Files made of a result. Nothing is compiled or run.
 
 use std::fs;
-use std::path::Path;
+use std::path::{MAIN_SEPARATOR, Path};
 
 use lissom_io::ResultFile;
 use lissom_io::export::{
@@ -41,6 +41,11 @@ const FILES: [&str; 11] = [
 pub(crate) fn export(folder: &Path, name: &str) -> Result<Export, Problem> {
     let result = folder.join("result.json");
     let model = || export_model_of_result(&result);
+    // The folder means nothing to who reads the file.
+    let plain = |text: String| {
+        let folder = format!("{}{MAIN_SEPARATOR}", folder.display());
+        text.replace(&folder, "").into_bytes()
+    };
     let (content_type, content) = match name {
         "report.html" => ("text/html; charset=utf-8", fs::read(folder.join(name))?),
         "result.json" => ("application/json", fs::read(folder.join(name))?),
@@ -62,19 +67,15 @@ pub(crate) fn export(folder: &Path, name: &str) -> Result<Export, Problem> {
             })?;
             ("text/plain; charset=utf-8", text)
         }
-        "arm.py" => ("text/plain; charset=utf-8", python_script(&model()?).into_bytes()),
-        "arm.m" => ("text/plain; charset=utf-8", matlab_script(&model()?).into_bytes()),
+        "arm.py" => ("text/plain; charset=utf-8", plain(python_script(&model()?))),
+        "arm.m" => ("text/plain; charset=utf-8", plain(matlab_script(&model()?))),
         "arm.mat" => ("application/octet-stream", mat_file(&model()?)),
         "arm.xml" => {
             let text = mjcf(&model()?).map_err(lissom_io::Error::from)?;
-            ("text/plain; charset=utf-8", text.into_bytes())
+            ("text/plain; charset=utf-8", plain(text))
         }
-        "lissom_feedforward.h" => {
-            ("text/plain; charset=utf-8", c_files(&model()?).header.into_bytes())
-        }
-        "lissom_feedforward.c" => {
-            ("text/plain; charset=utf-8", c_files(&model()?).source.into_bytes())
-        }
+        "lissom_feedforward.h" => ("text/plain; charset=utf-8", plain(c_files(&model()?).header)),
+        "lissom_feedforward.c" => ("text/plain; charset=utf-8", plain(c_files(&model()?).source)),
         _ => return Err(Problem::not_found("file")),
     };
     Ok(Export { content_type, content })

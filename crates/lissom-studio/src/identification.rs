@@ -11,7 +11,7 @@ use lissom::DescribedLogs;
 use lissom::identify::{Effort, Identified, Interrupt, Options, Severity, Stage, identify};
 use lissom_io::campaign::{AnalysisOptions, DriveConstants};
 use lissom_io::inspect::{Description, Inspection};
-use lissom_io::{CampaignFile, CampaignReader, ResultFile, UnitNames, write};
+use lissom_io::{CampaignFile, CampaignReader, EffortName, ResultFile, UnitNames, write};
 use lissom_text::with_uncertainty;
 use lissom_views::known_arm::checked;
 use lissom_views::report_page::{self, PageContent};
@@ -142,17 +142,26 @@ fn made(session: &Session, logs: Logs, job: &Job) -> Result<Made, Problem> {
         identify(&file.campaign, &options, stage)
             .map_err(|error| Problem::input(error.to_string(), None))
     };
-    refuse_if_dropped(job)?;
+    if job.is_dropped() {
+        return Err(Problem::input("stopped", None));
+    }
+    job.has_read();
     let stages = Stage::count(file.campaign.runs.len());
+    let mut first = None;
     if effort == Effort::Quick {
         job.first(Vec::new(), stages);
     } else {
         job.step("first result, without a search");
-        let first = found(Effort::Quick, Interrupt::default(), &|_| ())?;
-        refuse_if_dropped(job)?;
-        job.first(first_rows(&file, &first), stages);
+        let quick = found(Effort::Quick, Interrupt::default(), &|_| ())?;
+        job.first(first_rows(&file, &quick), stages);
+        first = Some(quick).filter(|_| job.interrupt.is_asked());
     }
-    let id = found(effort, job.interrupt.clone(), &|stage| job.stage(stage))?;
+    // Who stops before the search begins gets the first result.
+    let is_first = first.is_some();
+    let id = match first {
+        Some(first) => first,
+        None => found(effort, job.interrupt.clone(), &|stage| job.stage(stage))?,
+    };
     job.step("report");
     let described = Reference::of(&file)?;
     let geometry = checked(&id, described.as_ref());
@@ -179,11 +188,11 @@ fn made(session: &Session, logs: Logs, job: &Job) -> Result<Made, Problem> {
             id: 0,
             name,
             made_s: made.as_secs(),
-            effort: session.setup.effort,
+            effort: if is_first { EffortName::Quick } else { session.setup.effort },
             runs: id.runs.len(),
             warnings: count(Severity::Warning),
             refusals: count(Severity::Refusal),
-            interrupted: id.is_interrupted(),
+            interrupted: is_first || id.is_interrupted(),
             planned: is_virtual,
             setup,
         },
@@ -193,10 +202,6 @@ fn made(session: &Session, logs: Logs, job: &Job) -> Result<Made, Problem> {
         page: page.to_html(),
         arm: id.arm.as_ref().and_then(|arm| write::found_arm_text(arm, &file.campaign)),
     })
-}
-
-fn refuse_if_dropped(job: &Job) -> Result<(), Problem> {
-    if job.is_dropped() { Err(Problem::input("stopped", None)) } else { Ok(()) }
 }
 
 /// The name of a result of the session: that of its campaign or first log.

@@ -23,6 +23,8 @@ pub(crate) struct Job {
 #[derive(Debug)]
 struct Progress {
     step: &'static str,
+    /// Whether the logs are read.
+    has_read: bool,
     /// Stages that are done, of all.
     done: usize,
     all: usize,
@@ -64,6 +66,7 @@ impl Job {
             dropped: AtomicBool::new(false),
             progress: Mutex::new(Progress {
                 step: "reading the logs",
+                has_read: false,
                 done: 0,
                 all: 0,
                 searches: false,
@@ -103,11 +106,16 @@ impl Job {
         });
     }
 
-    /// Ends the search with the best result so far. Before there is one, the job ends without a result.
+    /// The logs are read: a result can be made of them.
+    pub(crate) fn has_read(&self) {
+        self.with(|progress| progress.has_read = true);
+    }
+
+    /// Ends the search with the best result so far. Before the logs are read, the job ends without a result.
     pub(crate) fn stop(&self) {
         self.interrupt.ask();
         self.with(|progress| {
-            if progress.all == 0 {
+            if !progress.has_read {
                 self.dropped.store(true, Ordering::Relaxed);
             }
         });

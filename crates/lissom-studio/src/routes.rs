@@ -183,6 +183,14 @@ fn add_file(app: &Shared, name: String) -> Result<(), Problem> {
     app.add(LogEntry { id, name, path: None, kind }, false)
 }
 
+/// What is not there is removed already.
+fn gone(removed: std::io::Result<()>) -> std::io::Result<()> {
+    match removed {
+        Err(error) if error.kind() == std::io::ErrorKind::NotFound => Ok(()),
+        other => other,
+    }
+}
+
 async fn remove_log(
     State(app): State<Shared>,
     Path(id): Path<u64>,
@@ -200,7 +208,7 @@ async fn remove_log(
         })?;
         app.cache.forget(id);
         if removed.path.is_none() {
-            std::fs::remove_file(app.folder.logs().join(removed.name))?;
+            gone(std::fs::remove_file(app.folder.logs().join(removed.name)))?;
         }
         Ok(Json(StateView::of(&app)))
     })
@@ -262,7 +270,7 @@ async fn remove_result(State(app): State<Shared>, Path(id): Path<u64>) -> Answer
             at.map(|at| session.results.remove(at))
         })?;
         let removed = removed.ok_or_else(|| Problem::not_found("result"))?;
-        std::fs::remove_dir_all(app.folder.result(removed.id))?;
+        gone(std::fs::remove_dir_all(app.folder.result(removed.id)))?;
         Ok(Json(StateView::of(&app)))
     })
     .await

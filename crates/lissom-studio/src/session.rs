@@ -1,5 +1,6 @@
 //! What is kept between two starts: `session.json`.
 
+use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
 
 use lissom_io::inspect::{Description, Inspection};
@@ -8,9 +9,12 @@ use serde::{Deserialize, Serialize};
 
 use crate::problem::Problem;
 use crate::setup::Setup;
+use crate::uploads::plain_name;
 
 /// Number of the format of `session.json`.
 const FORMAT: u32 = 1;
+/// Largest count, which a number of JSON holds exactly.
+const COUNT_MOST: u64 = 1 << 53;
 
 /// Logs, what is said about them, and results.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
@@ -111,7 +115,31 @@ impl Session {
                 session.format
             ));
         }
+        session.check()?;
         Ok(session)
+    }
+
+    /// Says what another program has made of it that this one does not write.
+    fn check(&self) -> Result<(), String> {
+        let logs = self.logs.iter().map(|log| log.id);
+        let results = self.results.iter().map(|result| result.id);
+        for (what, next, ids) in [
+            ("log", self.next_log, logs.collect::<Vec<u64>>()),
+            ("result", self.next_result, results.collect()),
+        ] {
+            let distinct: BTreeSet<&u64> = ids.iter().collect();
+            if distinct.len() < ids.len() || ids.iter().any(|id| *id >= next) {
+                return Err(format!("the number of a {what} is not the only one of its kind"));
+            }
+        }
+        if [self.revision, self.next_log, self.next_result].into_iter().any(|n| n > COUNT_MOST) {
+            return Err("a number is too large".to_owned());
+        }
+        let sent = self.logs.iter().filter(|log| log.path.is_none());
+        match sent.map(|log| &log.name).find(|name| plain_name(name) != **name) {
+            Some(name) => Err(format!("{name:?} is no name of a file in the folder")),
+            None => Ok(()),
+        }
     }
 
     /// A number that no log has had.

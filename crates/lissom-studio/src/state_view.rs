@@ -13,6 +13,9 @@ use crate::problem::Problem;
 use crate::session::{FileKind, LogEntry, ResultEntry, Session};
 use crate::setup::Setup;
 
+/// What stands beside a hold that the identification finds.
+const NOT_YET: &str = "not decided yet: \"Identify\" finds from the motion whether it is measured or sampled, and keeps it";
+
 /// The session as the page shows it.
 #[derive(Debug, Serialize)]
 pub(crate) struct StateView {
@@ -133,13 +136,22 @@ fn campaign(app: &App, session: &Session, first: Option<&Arc<Inspection>>) -> Ca
         let (text, problem) = read().unwrap_or_else(|problem| (String::new(), Some(problem)));
         return CampaignView { text, given: true, problems: problem.into_iter().collect() };
     }
-    let Some(first) = first else { return CampaignView::default() };
+    let Some(first) = first else {
+        let has_logs = session.logs.iter().any(|log| log.kind == FileKind::Log);
+        let none_is_used = has_logs && session.used_logs().next().is_none();
+        let problem = || Problem::input("all logs are left out", Some("use one above".to_owned()));
+        let problems = none_is_used.then(problem).into_iter().collect();
+        return CampaignView { problems, ..CampaignView::default() };
+    };
     let draft = || {
-        let said = session.description(first)?;
+        let mut said = session.description(first)?;
         let files: Vec<_> = session.used_logs().map(LogEntry::file).collect();
-        CampaignDraft::new(first, &files, &said)
-            .map_err(lissom_io::Error::from)
-            .map_err(Problem::from)
+        let mut draft = CampaignDraft::new(first, &files, &said).map_err(lissom_io::Error::from)?;
+        if draft.assumes_hold() {
+            said.hold_shown = Some(("measured".to_owned(), NOT_YET.to_owned()));
+            draft = CampaignDraft::new(first, &files, &said).map_err(lissom_io::Error::from)?;
+        }
+        Ok::<_, Problem>(draft)
     };
     match draft() {
         Ok(draft) => {

@@ -58,8 +58,10 @@ impl Studio {
         };
         let folder = StateFolder::open(&folder)?;
         let failed = |source| StudioError::Folder { folder: folder.path().to_owned(), source };
-        uploads::clean(&folder.logs()).map_err(failed)?;
         let session = folder.read()?;
+        let known =
+            |name: &str| session.logs.iter().any(|log| log.path.is_none() && log.name == name);
+        uploads::clean(&folder.logs(), known).map_err(failed)?;
         let wanted = options.port.unwrap_or(0);
         let no_port = |source| StudioError::Port { port: wanted, source };
         let listener = TcpListener::bind((Ipv4Addr::LOCALHOST, wanted)).map_err(no_port)?;

@@ -111,11 +111,11 @@ async fn fill(file: &mut File, mut body: Body, most: u64, quota: u64) -> Result<
     Ok(())
 }
 
-/// Removes what did not arrive whole before the program ended.
-pub(crate) fn clean(folder: &Path) -> io::Result<()> {
+/// Removes what did not arrive whole, or was not added, before the program ended: all files that are not `known`.
+pub(crate) fn clean(folder: &Path, known: impl Fn(&str) -> bool) -> io::Result<()> {
     for file in fs::read_dir(folder)? {
         let file = file?;
-        if file.file_name().to_string_lossy().starts_with(".part-") {
+        if !known(&file.file_name().to_string_lossy()) && !file.file_type()?.is_dir() {
             fs::remove_file(file.path())?;
         }
     }
@@ -145,6 +145,17 @@ mod tests {
             assert_eq!(plain_name(said), name, "{said}");
         }
         assert!(plain_name(&"ü".repeat(500)).len() <= NAME_BYTES);
+    }
+
+    #[test]
+    fn only_known_files_stay() {
+        let folder = tempfile::tempdir().unwrap();
+        for name in ["a.csv", "b.csv", ".part-0"] {
+            fs::write(folder.path().join(name), "x").unwrap();
+        }
+        clean(folder.path(), |name| name == "a.csv").unwrap();
+        assert!(folder.path().join("a.csv").is_file());
+        assert_eq!(size_bytes(folder.path()).unwrap(), 1);
     }
 
     #[test]

@@ -74,6 +74,29 @@ fn a_log_that_cannot_be_one_is_reported_before_the_identification() {
 }
 
 #[test]
+fn a_session_that_another_program_changed_is_refused() {
+    let folder = tempdir().unwrap();
+    let client = with_sample(folder.path());
+    drop(client);
+    let text = fs::read_to_string(folder.path().join("session.json")).unwrap();
+    let session: Value = serde_json::from_str(&text).unwrap();
+    for (pointer, value) in [
+        ("/logs/0/name", json!("../../victim.csv")),
+        ("/logs/1/id", session["logs"][0]["id"].clone()),
+        ("/next_log", json!(1)),
+        ("/revision", json!(u64::MAX)),
+    ] {
+        let copy = tempdir().unwrap();
+        let mut changed = session.clone();
+        *changed.pointer_mut(pointer).unwrap() = value;
+        fs::write(copy.path().join("lock"), "").unwrap();
+        fs::write(copy.path().join("session.json"), changed.to_string()).unwrap();
+        let refused = lissom_studio::Studio::open(&options(copy.path()));
+        assert!(refused.is_err(), "{pointer}");
+    }
+}
+
+#[test]
 fn the_state_is_there_after_a_restart() {
     let folder = tempdir().unwrap();
     let copy = tempdir().unwrap();

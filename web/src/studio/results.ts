@@ -65,13 +65,14 @@ export class Results {
   private async load(result: Result): Promise<void> {
     this.report.dataset["id"] = String(result.id);
     put(this.report, h("p", {}, "…"));
-    await this.store.during("", async () => {
+    const done = await this.store.during("", async () => {
       const text = await getText(`/api/results/${result.id}/report`);
       if (this.shown !== result.id) return;
       // The server has escaped all text of logs; the policy of this page runs no script of it either.
       this.report.innerHTML = text;
       enlivenReport(this.report);
     });
+    if (!done) put(this.report, h("p", {}, "The report is not here. "), button("Load it again", () => void this.load(result)));
   }
 
   private files(result: Result): HTMLElement {

@@ -157,7 +157,9 @@ fn confine(source: &Source) -> Result<(), Error> {
     {
         files.push(PathBuf::from(arm.text()?));
     }
-    let is_inside = |file: &PathBuf| file.components().all(|c| matches!(c, Component::Normal(_)));
+    let is_inside = |file: &PathBuf| {
+        file.components().all(|c| matches!(c, Component::Normal(_) | Component::CurDir))
+    };
     match files.into_iter().find(|file| !is_inside(file)) {
         Some(file) => Err(CampaignError::Outside { file: file.display().to_string() }.into()),
         None => Ok(()),
