@@ -2,7 +2,7 @@
 
 use lissom::identify::NORMAL_95;
 use lissom::lti::{CoefficientCovariance, TransferFunction};
-use lissom_io::result::{SeriesEntry, TipQuantityName, TipResponseEntry};
+use lissom_io::result::{SeriesEntry, TipQuantityName, TipResponseEntry, TransferFunctionEntry};
 use lissom_io::{ResultFile, UnitNames};
 use lissom_report::{BodePlot, Role, Series, Style};
 use num_complex::Complex64;
@@ -57,6 +57,12 @@ fn points(result: &ResultFile, series: &SeriesEntry) -> Vec<Point> {
         Some(Point { omega_rad_s: *omega_rad_s, value, std: at(&series.std)?, flagged })
     };
     responses.omega_rad_s.iter().enumerate().filter_map(point).collect()
+}
+
+/// The model of the motor; none if its inertia is refused, which the model then contains.
+pub(crate) fn motor_model(result: &ResultFile) -> Option<&TransferFunctionEntry> {
+    let is_given = result.drive.inertia.any().is_some_and(Option::is_some);
+    result.models.motor.as_ref().filter(|_| is_given)
 }
 
 /// A transfer function of a result.
@@ -123,7 +129,7 @@ fn motor(names: UnitNames, result: &ResultFile, reference: Option<&Reference>) -
         );
     }
     let grid = grid(result);
-    if let Some(model) = &result.models.motor {
+    if let Some(model) = motor_model(result) {
         let delay_s = result.models.motor_delay_s.as_ref().map_or(0.0, |delay| delay.value);
         let model = function(&model.num, &model.den);
         plot = plot.series(fitted(&model, delay_s, result.models.motor_covariance.as_ref(), &grid));

@@ -6,13 +6,13 @@ use lissom_io::ResultFile;
 use lissom_report::{Axis, LinePlot, Role, Trace};
 use num_complex::Complex64;
 
-use crate::bode_plots::function;
+use crate::bode_plots::{function, motor_model};
 
 /// The maps of motor and tips, each with the name of its file and that of its channel; those are missing whose model is not
 /// known.
 pub(crate) fn maps(result: &ResultFile) -> Vec<(String, String, LinePlot)> {
     let models = &result.models;
-    let motor = models.motor.as_ref();
+    let motor = motor_model(result);
     let motor = motor.map(|g| {
         let covariance = models.motor_covariance.as_ref();
         ("poles-motor".to_owned(), "motor", function(&g.num, &g.den), covariance)
