@@ -81,12 +81,13 @@ export class Plan {
 
   private async load(id: number): Promise<void> {
     this.arm.value = sessionStorage.getItem(edited(id)) ?? "";
-    if (this.arm.value !== "") return;
-    const loaded = await this.store.during("", async () => {
-      this.arm.value = await getText(`/api/results/${id}/files/arm.toml`);
-    });
+    const isThere =
+      this.arm.value !== "" ||
+      (await this.store.during("", async () => {
+        this.arm.value = await getText(`/api/results/${id}/files/arm.toml`);
+      }));
     // Without an arm there is nothing to plan; the message says why.
-    for (const id of ["plan", "precision", "within"]) document.getElementById(id)?.toggleAttribute("disabled", !loaded);
+    document.getElementById("plan")?.toggleAttribute("disabled", !isThere);
   }
 
   private async make(): Promise<void> {
