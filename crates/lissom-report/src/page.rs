@@ -206,17 +206,15 @@ impl Page {
         ))
     }
 
-    /// The findings, the most serious first.
+    /// The findings, in their order.
     #[must_use]
     pub fn findings(self, findings: &[Finding]) -> Self {
         if findings.is_empty() {
             return self.put("<p>No findings.</p>");
         }
-        let mut sorted: Vec<&Finding> = findings.iter().collect();
-        sorted.sort_by_key(|f| std::cmp::Reverse(f.severity));
         let mut html = "<ul class=\"findings\">\n".to_owned();
         let mut placed = HashSet::new();
-        for finding in sorted {
+        for finding in findings {
             let word = finding.severity.word();
             let anchor = finding_anchor(&finding.code);
             let place = if placed.insert(anchor.clone()) {

@@ -120,7 +120,7 @@ fn figures_findings_and_refusals_read_right() {
         assert!(html.contains(&expected), "{expected}");
     }
     assert!(html.contains("Not drawn: figure &quot;&quot; has no point to draw"));
-    assert!(html.find("stuck").unwrap() < html.find(">info<").unwrap(), "refusals come first");
+    assert!(html.find(">info<").unwrap() < html.find("stuck").unwrap(), "in the order given");
     assert!(Page::new("t").findings(&[]).to_html().contains("No findings."));
 }
 

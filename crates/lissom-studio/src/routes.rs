@@ -3,7 +3,7 @@
 use std::sync::Arc;
 
 use axum::body::Body;
-use axum::extract::{DefaultBodyLimit, Path, Query, State};
+use axum::extract::{DefaultBodyLimit, State};
 use axum::http::header::CONTENT_TYPE;
 use axum::http::{HeaderName, StatusCode};
 use axum::response::{IntoResponse, Response};
@@ -22,7 +22,7 @@ use crate::log_cache::TracePoints;
 use crate::opener;
 use crate::planning::{PlanView, Wanted};
 use crate::problem::Problem;
-use crate::said::Said;
+use crate::said::{Asked, Named, Said};
 use crate::sample;
 use crate::session::{FileKind, LogEntry, Session};
 use crate::setup::Setup;
@@ -153,7 +153,7 @@ async fn add_sample(State(app): State<Shared>, Said(known): Said<Known>) -> Answ
 
 async fn put_file(
     State(app): State<Shared>,
-    Path(name): Path<String>,
+    Named(name): Named<String>,
     body: Body,
 ) -> Answer<StateView> {
     let name = uploads::receive(&app.folder.logs(), &name, body, app.quota_bytes).await?;
@@ -193,8 +193,8 @@ fn gone(removed: std::io::Result<()>) -> std::io::Result<()> {
 
 async fn remove_log(
     State(app): State<Shared>,
-    Path(id): Path<u64>,
-    Query(known): Query<Known>,
+    Named(id): Named<u64>,
+    Asked(known): Asked<Known>,
 ) -> Answer<StateView> {
     in_thread(move || {
         let removed = app.change(known.revision, |session| {
@@ -224,8 +224,8 @@ struct Part {
 
 async fn trace(
     State(app): State<Shared>,
-    Path((id, channel)): Path<(u64, usize)>,
-    Query(part): Query<Part>,
+    Named((id, channel)): Named<(u64, usize)>,
+    Asked(part): Asked<Part>,
 ) -> Answer<TracePoints> {
     in_thread(move || {
         let session = app.session();
@@ -263,7 +263,7 @@ async fn stop_job(State(app): State<Shared>) -> Answer<JobView> {
     Ok(Json(job.view()))
 }
 
-async fn remove_result(State(app): State<Shared>, Path(id): Path<u64>) -> Answer<StateView> {
+async fn remove_result(State(app): State<Shared>, Named(id): Named<u64>) -> Answer<StateView> {
     in_thread(move || {
         let removed = app.amend(|session| {
             let at = session.results.iter().position(|result| result.id == id);
@@ -283,7 +283,7 @@ fn result_folder(app: &Shared, id: u64) -> Result<std::path::PathBuf, Problem> {
     Ok(app.folder.result(result.id))
 }
 
-async fn report(State(app): State<Shared>, Path(id): Path<u64>) -> Result<Response, Problem> {
+async fn report(State(app): State<Shared>, Named(id): Named<u64>) -> Result<Response, Problem> {
     Ok(fragment(in_thread(move || exports::report(&result_folder(&app, id)?)).await?))
 }
 
@@ -294,7 +294,7 @@ fn fragment(text: String) -> Response {
 
 async fn result_file(
     State(app): State<Shared>,
-    Path((id, name)): Path<(u64, String)>,
+    Named((id, name)): Named<(u64, String)>,
 ) -> Result<Response, Problem> {
     let file = in_thread(move || exports::export(&result_folder(&app, id)?, &name)).await?;
     let save = (HeaderName::from_static("content-disposition"), "attachment");
@@ -309,7 +309,7 @@ struct Chosen {
 
 async fn compare(
     State(app): State<Shared>,
-    Query(chosen): Query<Chosen>,
+    Asked(chosen): Asked<Chosen>,
 ) -> Result<Response, Problem> {
     let text = in_thread(move || {
         let session = app.session();

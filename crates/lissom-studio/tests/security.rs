@@ -310,6 +310,11 @@ fn what_is_no_json_is_answered_as_every_error_is() {
             assert!(answer.json()["error"].is_string(), "{path}: {}", answer.body);
         }
     }
+    for path in ["/api/results/one/report", "/api/logs/1/trace/1?from=a", "/api/compare"] {
+        let answer = client.send("GET", path, b"");
+        assert_eq!(answer.status, 400, "{path}");
+        assert!(answer.json()["error"].is_string(), "{path}: {}", answer.body);
+    }
 }
 
 #[test]

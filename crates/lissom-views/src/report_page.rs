@@ -1,5 +1,7 @@
 //! The report page: one self-contained HTML document.
 
+use std::collections::HashSet;
+
 use lissom::identify::LogPrediction;
 use lissom::record::Campaign;
 use lissom_io::result::{FindingEntry, SeverityName};
@@ -11,6 +13,7 @@ use lissom_report::{
 
 use crate::digits::counted;
 use crate::known_arm::Reference;
+use crate::least_squares_rows::least_squares_rows;
 use crate::parameter_rows::{KNOWN_DIGITS, ParameterRow, classical_rows, parameter_rows};
 use crate::program_hints::ProgramHints;
 use crate::run_table::run_table;
@@ -25,7 +28,7 @@ use crate::{
 /// Most parameters in the summary.
 const MAIN_PARAMETERS: usize = 6;
 /// Why the line of a model has no band.
-const NO_BAND: &str = " It has no band: only the output-error method, where it is accepted, gives the covariance of a whole model.";
+const NO_BAND: &str = " It has no band: the data do not tell the errors of all its coefficients.";
 /// Most findings in the summary.
 const MAIN_FINDINGS: usize = 3;
 
@@ -51,7 +54,7 @@ pub fn page(title: &str, content: PageContent<'_>) -> Page {
     let rows = parameter_rows(names, result, reference);
     let findings = result.findings.iter().enumerate();
     let findings: Vec<ReportFinding> = findings.map(|(k, f)| finding(f, hints.of(k))).collect();
-    let main: Vec<ReportFinding> = main_findings(&findings);
+    let main: Vec<ReportFinding> = main_findings(&findings, &rows);
     let mut page = page.summary(&in_words(result, &rows));
     if !main.is_empty() {
         page = page.main_findings(&main);
@@ -60,32 +63,16 @@ pub fn page(title: &str, content: PageContent<'_>) -> Page {
         "Drive and beam; 0.1320(12) means 0.1320 ± 0.0012",
         &key_figures(result, rows, reference),
     );
+    if let Some(found) = least_squares_rows(names, result) {
+        let figures: Vec<KeyFigure> =
+            found.rows.into_iter().map(|row| key_figure(row, String::new())).collect();
+        page = page
+            .key_figures("For tools that know one Coulomb and one viscous friction only", &figures)
+            .paragraph(&format!("By {}.", found.words));
+    }
     page = separability_section::section(page, result);
     page = motion_section(page, result, logs);
-    let bode = bode_plots::bode_plots(names, result, reference);
-    if !bode.is_empty() {
-        page = page.heading("Frequency responses");
-    }
-    let has_bands = result.models.motor_covariance.is_some();
-    let no_band = if has_bands { "" } else { NO_BAND };
-    for (_, plot) in &bode {
-        page = page.figure(
-            plot,
-            &format!(
-                "Points: runs, or frequency bands. Line: the model, fitted to the points or computed from the \
-                 parameters.{no_band}"
-            ),
-        );
-    }
-    let maps = pole_zero_map::maps(result).into_iter().map(|(_, name, plot)| (name, plot));
-    let maps: Vec<_> = maps.collect();
-    if !maps.is_empty() {
-        page = page.gallery(
-            "response of",
-            &maps,
-            "Of the linear models, without dry friction and delays.",
-        );
-    }
+    page = response_section(page, names, result, reference);
     if let Some(plot) = third_harmonic::pair_plot(names, result) {
         page = page.heading("Third harmonic").figure(
             &plot,
@@ -199,6 +186,40 @@ fn motion_section(
     )
 }
 
+/// Bode plots, and the poles and zeros of their models.
+fn response_section(
+    mut page: Page,
+    names: UnitNames,
+    result: &ResultFile,
+    reference: Option<&Reference>,
+) -> Page {
+    let bode = bode_plots::bode_plots(names, result, reference);
+    if !bode.is_empty() {
+        page = page.heading("Frequency responses");
+    }
+    let has_bands = result.models.motor.is_none() || result.models.motor_covariance.is_some();
+    let no_band = if has_bands { "" } else { NO_BAND };
+    for (_, plot) in &bode {
+        page = page.figure(
+            plot,
+            &format!(
+                "Points: runs, or frequency bands. Line: the model, fitted to the points or computed from the \
+                 parameters.{no_band}"
+            ),
+        );
+    }
+    let maps = pole_zero_map::maps(result).into_iter().map(|(_, name, plot)| (name, plot));
+    let maps: Vec<_> = maps.collect();
+    if !maps.is_empty() {
+        page = page.gallery(
+            "response of",
+            &maps,
+            "Of the linear models, without dry friction and delays.",
+        );
+    }
+    page
+}
+
 /// The result in two sentences: the most important parameters, and how many findings there are.
 fn in_words(result: &ResultFile, rows: &[ParameterRow]) -> String {
     let main = rows.iter().filter(|row| !row.name.starts_with(' '));
@@ -227,18 +248,19 @@ fn in_words(result: &ResultFile, rows: &[ParameterRow]) -> String {
     )
 }
 
-/// The findings to know first: refusals, then warnings, each kind once.
-fn main_findings(findings: &[ReportFinding]) -> Vec<ReportFinding> {
-    let mut main: Vec<ReportFinding> = Vec::new();
-    for severity in [ReportSeverity::Refusal, ReportSeverity::Warning] {
-        for finding in findings.iter().filter(|finding| finding.severity == severity) {
-            if main.iter().all(|known| known.code != finding.code) {
-                main.push(finding.clone());
-            }
-        }
+/// The findings to know first, in the order of the result, which has causes before what follows from them; those that
+/// affect none of `rows` last. Infos, of the rows alone, only where there is nothing else.
+fn main_findings(findings: &[ReportFinding], rows: &[ParameterRow]) -> Vec<ReportFinding> {
+    let of_rows = |f: &ReportFinding| rows.iter().any(|row| f.affects.iter().any(|a| a == row.key));
+    let is_info = |f: &&ReportFinding| f.severity == ReportSeverity::Info;
+    let mut main: Vec<&ReportFinding> = findings.iter().filter(|f| !is_info(f)).collect();
+    if main.is_empty() {
+        main = findings.iter().filter(|f| of_rows(f)).collect();
     }
-    main.truncate(MAIN_FINDINGS);
-    main
+    main.sort_by_key(|f| !of_rows(f));
+    let mut codes = HashSet::new();
+    let each_once = main.into_iter().filter(|f| codes.insert(&f.code));
+    each_once.take(MAIN_FINDINGS).cloned().collect()
 }
 
 fn key_figures(

@@ -36,7 +36,9 @@ fn parameters(found: &SeparabilityEntry) -> Table {
     );
     for known in &found.parameters {
         let alone = known.relative_std_if_others_known;
-        table = table.row([known.parameter.clone(), share(known.relative_std), share(alone)]);
+        let refused = if known.given { "" } else { " (estimate refused)" };
+        let name = format!("{}{refused}", known.parameter);
+        table = table.row([name, share(known.relative_std), share(alone)]);
     }
     table
 }

@@ -1,11 +1,12 @@
 //! The parameters of a result.
 
-use lissom::identify::{Estimate, Identified, Method};
+use lissom::identify::Identified;
 use lissom_io::result::DirectionName;
 use lissom_io::{ResultFile, UnitNames};
 use lissom_report::{interval, significant, with_uncertainty};
 use lissom_views::digits::counted;
 use lissom_views::known_arm::Reference;
+use lissom_views::least_squares_rows::least_squares_rows;
 use lissom_views::parameter_rows::{KNOWN_DIGITS, classical_rows, parameter_rows};
 
 use super::printer::{line, table};
@@ -40,34 +41,17 @@ pub(crate) fn parameters(names: UnitNames, result: &ResultFile, reference: Optio
 }
 
 /// Prints ordinary least squares with Coulomb and viscous friction, if the result has another friction law.
-pub(crate) fn line_of_least_squares(names: UnitNames, id: &Identified) {
-    let f = &id.friction;
-    let plain = f.near_rest.is_none() && f.viscous_by_direction.is_none();
-    let plain = plain && id.method != Some(Method::FrictionLaw);
-    let Some(fit) = id.least_squares.as_ref().filter(|_| !plain) else { return };
-    let (friction, [slowest, fastest]) = (&fit.estimates.friction, fit.speed_range);
+pub(crate) fn line_of_least_squares(names: UnitNames, result: &ResultFile) {
+    let Some(found) = least_squares_rows(names, result) else { return };
     let mut rows = vec![["least squares", "value", "unit", "95 % interval"].map(str::to_owned)];
-    let mut add = |name: &str, estimate: Option<Estimate>, unit: String| {
-        let Some(e) = estimate else { return };
+    rows.extend(found.rows.into_iter().filter_map(|row| {
+        let e = row.estimate?;
         let within = interval(e.ci95(), e.value, e.std);
-        rows.push([name.to_owned(), with_uncertainty(e.value, e.std), unit, within]);
-    };
-    add("Coulomb friction", friction.coulomb, names.torque_unit().to_owned());
-    add("offset", friction.offset, names.torque_unit().to_owned());
-    add("viscous friction", friction.viscous, names.viscous_unit());
-    add(names.inertia_name(), fit.estimates.inertia, names.inertia_unit());
-    let gravity = fit.estimates.gravity.map(|g| g.amplitude());
-    add("gravity, m·g·l", gravity, names.torque_unit().to_owned());
+        Some([row.name, with_uncertainty(e.value, e.std), row.unit, within])
+    }));
     line("");
     table(&rows.into_iter().map(Vec::from).collect::<Vec<_>>());
-    line(&format!(
-        "least squares of all motion with Coulomb friction and one viscous coefficient, at speeds from {} to {} {}/s; \
-         residual torque {:.2} %",
-        significant(slowest, 3),
-        significant(fastest, 3),
-        names.angle(),
-        100.0 * fit.relative_residual
-    ));
+    line(&found.words);
 }
 
 /// Prints the speeds for which the friction law and the friction curve hold, if the result has such a law.

@@ -6,7 +6,7 @@ use crate::identify::equivalent::{Equivalent, EquivalentData, equivalent};
 use crate::identify::estimate::{Estimate, ModeEstimate};
 use crate::identify::findings::{EquivalentFinding, Finding};
 use crate::identify::identified::Identified;
-use crate::identify::judge::{Evidence, Methods, conclude, slip_phase_solution};
+use crate::identify::judge::{Evidence, Methods, conclude, slip_phase_solution, slip_phase_terms};
 use crate::identify::methods::constant_velocity;
 use crate::identify::methods::friction_law::{LawTerm, friction_law};
 use crate::identify::methods::least_squares::least_squares;
@@ -199,8 +199,9 @@ pub fn identify(
     let friction_law = law.map(|(law, sums)| law.beside(&sums, replay));
     let beam_regression = any_beam_regression.filter(is_sound_beam);
     let phases = slip_phase_solution(regression.as_ref(), friction_law.as_ref());
-    let phases = phases.map(|(_, drive)| drive);
-    let explained = regression.as_ref().zip(phases.as_ref());
+    let explained = phases.as_ref().zip(regression.as_ref()).and_then(|((method, drive), r)| {
+        Some((r, drive, slip_phase_terms(*method, Some(r), friction_law.as_ref())?))
+    });
     let by_regression = estimates_model(campaign, explained, beam_regression.as_ref());
     let rigid = output_error.as_ref().and_then(|oe| rigid_model(campaign, oe));
     let Responses { points, motor_model, beam_model, findings: response_findings } =

@@ -5,6 +5,7 @@
 //! [inverted](inverse). [`propagated`] converts the covariance to the standard error of any function of the parameters.
 
 mod arm_parameter;
+mod correlation;
 mod expected;
 mod inverse;
 mod propagated;
@@ -12,6 +13,7 @@ mod reduced;
 pub(crate) mod thresholds;
 
 pub use arm_parameter::ArmParameter;
+pub use correlation::correlation;
 pub use expected::{expected_covariance, growing_information};
 pub use inverse::{Inverse, covariance, inverse, inverse_root, inverted};
 pub use propagated::{along, beside, propagated, slopes};

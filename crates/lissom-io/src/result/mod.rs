@@ -70,8 +70,8 @@ pub use linear_model_entries::{
     TipResponseEntry, TransferFunctionEntry,
 };
 pub use method_entries::{
-    BeamRegressionEntry, HiddenModeEntry, MethodEntries, MotorFitEntry, RegressionEntry,
-    SinePairEntry, ThirdHarmonicEntry, ViscousByDirectionEntry, WindowEntry,
+    BeamRegressionEntry, HiddenModeEntry, LeastSquaresEntry, MethodEntries, MotorFitEntry,
+    RegressionEntry, SinePairEntry, ThirdHarmonicEntry, ViscousByDirectionEntry, WindowEntry,
 };
 pub use output_error_entry::{ExtensionEntry, OutputErrorEntry, StageEntry, StopName};
 pub use payload_file::{

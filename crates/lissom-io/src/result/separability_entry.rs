@@ -47,12 +47,20 @@ pub struct CorrelationEntry {
     pub matrix: Vec<Vec<Option<f64>>>,
 }
 
+/// Results of earlier versions do not say it.
+fn yes() -> bool {
+    true
+}
+
 /// The certainty of a parameter.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct ParameterCertaintyEntry {
     /// Name of the parameter.
     pub parameter: String,
+    /// Whether the estimate is given; false if a finding refuses it.
+    #[serde(default = "yes")]
+    pub given: bool,
     /// Its relative standard error; null if the logs do not separate it from other parameters.
     pub relative_std: Option<f64>,
     /// Its relative standard error if all other parameters were known.
@@ -150,6 +158,7 @@ impl SeparabilityEntry {
     pub(crate) fn of(axis: Axis, names: UnitNames, found: &Separability) -> Self {
         let known = found.parameters.iter().map(|known| ParameterCertaintyEntry {
             parameter: known.parameter.name(),
+            given: known.given,
             relative_std: finite(known.std),
             relative_std_if_others_known: finite(known.alone),
         });

@@ -6,7 +6,7 @@ use crate::identify::friction_estimates::Friction;
 use crate::identify::judge::evidence::{Evidence, Methods};
 use crate::identify::judge::thresholds::{BEATEN_FACTOR, BEATEN_SHARE, MODEL_MISFIT};
 use crate::identify::methods::friction_law::FrictionLaw;
-use crate::identify::methods::regression::{MotorRegression, coupled_tips};
+use crate::identify::methods::regression::{MotorRegression, Terms, coupled_tips};
 use crate::identify::responses::rational::MotorFit;
 use crate::identify::thresholds::UNEXPLAINED_TORQUE;
 
@@ -63,6 +63,22 @@ pub(crate) fn slip_phase_solution(
         return Some((Method::RegressionByDirection, split.estimates.clone()));
     }
     Some((Method::Regression, regression.estimates()))
+}
+
+/// Terms of the solution of slip phases that a method offers, with their covariance; `None` of other methods.
+pub(crate) fn slip_phase_terms<'a>(
+    method: Method,
+    regression: Option<&'a MotorRegression>,
+    law: Option<&'a FrictionLaw>,
+) -> Option<&'a Terms> {
+    match method {
+        Method::Regression => regression.map(|r| &r.terms),
+        Method::RegressionByDirection => {
+            regression.and_then(|r| r.viscous_by_direction.as_ref()).map(|split| &split.terms)
+        }
+        Method::FrictionLaw => law.map(|law| &law.chosen.joint),
+        _ => None,
+    }
 }
 
 fn by_output_error(evidence: &Evidence<'_>) -> Option<DriveEstimates> {
@@ -198,8 +214,11 @@ fn is_known(e: Estimate) -> bool {
 
 #[cfg(test)]
 mod tests {
+    use nalgebra::DMatrix;
+
     use super::*;
     use crate::identify::estimate::Estimate;
+    use crate::identify::estimate::ModeEstimate;
     use crate::identify::methods::constant_velocity::constant_velocity;
     use crate::identify::methods::least_squares::least_squares;
     use crate::identify::methods::regression::motor_regression;
@@ -230,14 +249,17 @@ mod tests {
         let logged = tips.iter().map(|_| wave(&angle)).collect();
         let time = TimeBase::uniform(0.0, 2e-3);
         let run = Run::new("sine", time, wave(&torque), wave(&angle), logged).unwrap();
-        let command = Command {
+        Campaign::new(Channels { axis: Axis::Rotary, command: command(), tips }, vec![run]).unwrap()
+    }
+
+    fn command() -> Command {
+        Command {
             quantity: CommandQuantity::Current,
             hold: Hold::Measured,
             torque_per_command: Some(TORQUE_PER_COMMAND),
             back_emf_viscous: BACK_EMF,
             limit: None,
-        };
-        Campaign::new(Channels { axis: Axis::Rotary, command, tips }, vec![run]).unwrap()
+        }
     }
 
     fn nothing() -> Methods {
@@ -273,10 +295,11 @@ mod tests {
 
     /// Rigid, or with one mode through which a beam is coupled.
     fn model(flexible: bool) -> MotorFit {
-        let pole =
-            crate::identify::responses::rational::Pole { omega_rad_s: 9.0, damping_ratio: 0.01 };
-        let mode = flexible.then(|| (pole, about(0.4)));
-        MotorFit::of_estimates(about(0.02), about(0.05), mode, TORQUE_PER_COMMAND, BACK_EMF)
+        let natural_frequency_rad_s = about(9.0);
+        let mode = ModeEstimate { natural_frequency_rad_s, damping_ratio: about(0.01) };
+        let drive = [about(0.02), about(0.05), about(0.4)];
+        let (mode, drive) = if flexible { (Some(mode), &drive[..]) } else { (None, &drive[..2]) };
+        MotorFit::of_estimates(drive, &DMatrix::identity(3, 3), mode, &command()).unwrap()
     }
 
     #[test]

@@ -9,5 +9,5 @@ pub(crate) mod thresholds;
 mod unknown;
 
 pub(crate) use conclude::{Conclusion, conclude};
-pub(crate) use drive_table::slip_phase_solution;
+pub(crate) use drive_table::{slip_phase_solution, slip_phase_terms};
 pub(crate) use evidence::{Chosen, Evidence, Methods};

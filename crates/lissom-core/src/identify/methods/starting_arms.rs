@@ -26,8 +26,11 @@ pub(crate) fn starting_arms(
     let drive = motor.estimates();
     let mut arms = arms(usable, &drive, beam, tips, shown, corrected);
     arms.extend(motor.mode.and_then(|mode| flexible(usable, &drive, mode)));
+    // A search from no delay may end beside one of several samples.
+    let lag_s = motor.delay_lag().map_or(0.0, |lag| lag.time_s);
     // With less viscous friction than none a replay runs away.
     for arm in &mut arms {
+        arm.command_lag_s = lag_s;
         arm.viscous_nm_s_per_rad.iter_mut().for_each(|v| *v = v.max(0.0));
     }
     arms

@@ -186,7 +186,7 @@ pub(crate) fn against(responses: &mut [ResponsePoint], model: &MotorFit) -> Opti
     for point in bands {
         all += 1;
         let Some(corrected) = point.motor_corrected else { continue };
-        let expected = model.transfer_function.response(point.omega_rad_s);
+        let expected = model.response(point.omega_rad_s);
         let distance = (corrected.value - expected).norm();
         if distance > BAND_CONTRADICTED * expected.norm() {
             point.flagged = true;

@@ -31,7 +31,7 @@ pub struct TipModel {
     /// Delay of the tip's readings relative to the motor's \[s\], not part of `function`;
     /// `None` if it is not estimated.
     pub delay_s: Option<f64>,
-    /// Covariance of the coefficients and of the delay; `None` without a covariance of the whole model.
+    /// Covariance of the coefficients and of the delay; `None` if the data do not tell it.
     pub covariance: Option<CoefficientCovariance>,
 }
 
@@ -44,7 +44,7 @@ pub struct LinearModels {
     pub motor: Option<TransferFunction>,
     /// Delay of the command \[s\], not part of `motor`; `None` if the data do not show one.
     pub motor_delay: Option<Estimate>,
-    /// Covariance of the coefficients of `motor` and of `motor_delay`; `None` without a covariance of the whole model.
+    /// Covariance of the coefficients of `motor` and of `motor_delay`; `None` if the data do not tell it.
     pub motor_covariance: Option<CoefficientCovariance>,
     /// One model for each tip, in order; empty if there is no model of the beam.
     pub tips: Vec<TipModel>,
@@ -96,10 +96,10 @@ impl LinearModels {
     fn of_fits(campaign: &Campaign, methods: &Methods, constant: f64) -> Self {
         let beam = methods.beam_model.as_ref();
         let functions = beam.map_or(&[][..], |b| &b.transfer_functions);
-        let tip = |g: &TransferFunction| TipModel {
+        let tip = |(i, g): (usize, &TransferFunction)| TipModel {
             function: g.clone(),
             delay_s: None,
-            covariance: None,
+            covariance: beam.and_then(|b| b.coefficient_covariance(i)),
         };
         let joined =
             |m: &MotorFit| state_space(m, constant, beam, &angles(campaign), unit(campaign));
@@ -107,8 +107,11 @@ impl LinearModels {
             source: ModelSource::Responses,
             motor: methods.motor_model.as_ref().map(|m| m.transfer_function.clone()),
             motor_delay: methods.motor_model.as_ref().and_then(|m| m.delay_s),
-            motor_covariance: None,
-            tips: functions.iter().map(tip).collect(),
+            motor_covariance: methods
+                .motor_model
+                .as_ref()
+                .and_then(MotorFit::coefficient_covariance),
+            tips: functions.iter().enumerate().map(tip).collect(),
             state_space: methods.motor_model.as_ref().map(joined),
         }
     }

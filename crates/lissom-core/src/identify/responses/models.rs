@@ -1,44 +1,48 @@
 //! Linear models from estimates or from fitted responses.
 
+use nalgebra::DVector;
+
 use crate::identify::drive_estimates::DriveEstimates;
+use crate::identify::estimate::Estimate;
 use crate::identify::methods::output_error::OutputError;
-use crate::identify::methods::regression::{BeamRegression, MotorRegression, coupled_tips};
+use crate::identify::methods::regression::{BeamRegression, MotorRegression, Terms, coupled_tips};
 use crate::identify::responses::correct::Response;
 use crate::identify::responses::rational::{
-    BeamFit, MotorData, MotorFit, Pole, TipData, TipForm, fit_at_once, fit_beam, fit_motor,
+    BeamFit, MotorData, MotorFit, TipData, TipForm, fit_at_once, fit_beam, fit_motor,
 };
 use crate::identify::responses::response_point::ResponsePoint;
 use crate::identify::responses::response_table::tip_model;
 use crate::identify::responses::thresholds::MODEL_EXPLAINED;
+use crate::information::correlation;
 use crate::record::{Campaign, Tip};
+use crate::replay::Parameter;
 
 /// The model that the slip phases' estimates make, where they explain all: a rigid axis without
 /// tips, or one tip that follows one mode.
 pub(crate) fn estimates_model(
     campaign: &Campaign,
-    motor: Option<(&MotorRegression, &DriveEstimates)>,
+    motor: Option<(&MotorRegression, &DriveEstimates, &Terms)>,
     beam: Option<&BeamRegression>,
 ) -> Option<(MotorFit, Option<BeamFit>)> {
-    let (_, drive) = motor.filter(|(m, _)| m.relative_residual < MODEL_EXPLAINED)?;
+    let (regression, drive, terms) =
+        motor.filter(|(m, ..)| m.relative_residual < MODEL_EXPLAINED)?;
     let (inertia, viscous) = (drive.inertia?, drive.friction.viscous?);
-    let mode = match (campaign.channels.tips.len(), beam) {
+    let through = match (campaign.channels.tips.len(), beam) {
         (0, _) => None,
         (1, Some(beam)) if beam.relative_residual[0] < MODEL_EXPLAINED => {
-            let mode = *beam.modes.first()?;
-            let pole = Pole {
-                omega_rad_s: mode.natural_frequency_rad_s.value,
-                damping_ratio: mode.damping_ratio.value,
-            };
-            Some((mode, (pole, drive.coupling?)))
+            Some((*beam.modes.first()?, drive.coupling?))
         }
         _ => return None,
     };
-    let command = &campaign.channels.command;
-    let constant = command.torque_per_unit();
-    let through = mode.map(|m| m.1);
-    let model =
-        MotorFit::of_estimates(inertia, viscous, through, constant, command.back_emf_viscous);
-    (inertia.value > 0.0).then(|| (model, mode.map(|m| BeamFit::of_mode(m.0))))
+    let (mode, coupling) = through.unzip();
+    let drive: Vec<Estimate> = [inertia, viscous].into_iter().chain(coupling).collect();
+    let correlation = terms.drive_correlation();
+    let model = MotorFit::of_estimates(&drive, &correlation, mode, &campaign.channels.command)?;
+    let model = match regression.lag_s() {
+        Some(lag_s) => model.with_delay(lag_s),
+        None => model,
+    };
+    (inertia.value > 0.0).then(|| (model, mode.map(BeamFit::of_mode)))
 }
 
 /// The model of an axis without tips that the replay found rigid.
@@ -47,10 +51,11 @@ pub(crate) fn rigid_model(campaign: &Campaign, replay: &OutputError) -> Option<M
         return None;
     }
     let command = &campaign.channels.command;
-    let constant = command.torque_per_unit();
-    let back_emf = command.back_emf_viscous;
-    let (inertia, viscous) = (replay.inertia()?, replay.friction(back_emf).viscous?);
-    Some(MotorFit::of_estimates(inertia, viscous, None, constant, back_emf))
+    let viscous = replay.friction(command.back_emf_viscous).viscous?;
+    let covariance = replay.covariance_of(|arm| {
+        DVector::from_vec(vec![Parameter::Inertia.of(arm), Parameter::Viscous.of(arm)])
+    })?;
+    MotorFit::of_estimates(&[replay.inertia()?, viscous], &correlation(&covariance), None, command)
 }
 
 /// The beam's modes from its tips' responses to the motor.
@@ -111,7 +116,9 @@ pub(crate) fn motor_model(
     beam: Option<&BeamFit>,
 ) -> Option<MotorFit> {
     let data = motor_data(responses, constant);
-    fit_motor(&data, beam.map(BeamFit::modal_poles).as_deref())
+    let Some(beam) = beam else { return fit_motor(&data, None) };
+    let fit = fit_motor(&data, Some(&beam.modal_poles()))?;
+    Some(fit.with_poles_of(&data, beam.modal_covariance().as_ref()))
 }
 
 /// The motor's corrected responses that nothing speaks against.

@@ -6,9 +6,9 @@ use crate::identify::drive_estimates::DriveEstimates;
 use crate::identify::estimate::Estimate;
 use crate::identify::methods::output_error::OutputError;
 use crate::identify::methods::regression::Terms;
+use crate::identify::separability::ParameterCertainty;
 use crate::identify::separability::thresholds::LOST_SHARE;
-use crate::identify::separability::{ParameterCertainty, correlation};
-use crate::information::{ArmParameter, inverse, slopes};
+use crate::information::{ArmParameter, correlation, inverse, slopes};
 use crate::record::Campaign;
 use crate::replay::ModalArm;
 
@@ -18,6 +18,8 @@ const HALF: f64 = 0.5;
 /// Estimates and their covariance.
 pub(super) struct Judged {
     pub(super) parameters: Vec<ArmParameter>,
+    /// Whether the estimate of each is given.
+    given: Vec<bool>,
     /// ∂(parameter/size)/∂parameter, a column a parameter.
     pub(super) slopes: DMatrix<f64>,
     /// In shares of the sizes.
@@ -63,7 +65,8 @@ impl Judged {
         };
         let (slopes, covariance) = of(&columns);
         let correlation = correlation(&of(&of_estimates).1);
-        Self { parameters, slopes, covariance, correlation, lost: Vec::new() }
+        let given = vec![true; parameters.len()];
+        Self { parameters, given, slopes, covariance, correlation, lost: Vec::new() }
     }
 
     /// Those of a regression in slip phases, with the standard errors that it states.
@@ -116,13 +119,15 @@ impl Judged {
         };
         let lost = terms.lost.iter().filter_map(of_estimates).collect();
         let correlation = correlation(&covariance);
-        Self { parameters, slopes, covariance, correlation, lost }
+        let given = stated.iter().map(Option::is_some).collect();
+        Self { parameters, given, slopes, covariance, correlation, lost }
     }
 
     pub(super) fn none() -> Self {
         let none = || DMatrix::zeros(0, 0);
         Self {
             parameters: Vec::new(),
+            given: Vec::new(),
             slopes: none(),
             covariance: none(),
             correlation: none(),
@@ -147,6 +152,7 @@ impl Judged {
         let information = inverse(&self.covariance);
         let known = |(i, parameter): (usize, &ArmParameter)| ParameterCertainty {
             parameter: *parameter,
+            given: self.given[i],
             std: if self.is_lost(i) { f64::INFINITY } else { self.covariance[(i, i)].sqrt() },
             alone: 1.0 / information[(i, i)].sqrt(),
         };

@@ -15,13 +15,12 @@ use judged::Judged;
 pub use run_to_add::RunToAdd;
 pub use runs::{Carried, RunShare};
 
-use crate::identify::drive_estimates::Method;
 use crate::identify::findings::{
     EstimateFinding, Finding, FindingKind, MovedParameter, OutputErrorFinding, RegressionFinding,
     RunFinding,
 };
 use crate::identify::found_arm::ArmSource;
-use crate::identify::judge::{Chosen, Evidence, Methods};
+use crate::identify::judge::{Chosen, Evidence, Methods, slip_phase_terms};
 use crate::identify::separability::thresholds::ALL_SHARP;
 use crate::information::ArmParameter;
 use crate::record::Campaign;
@@ -31,6 +30,8 @@ use crate::record::Campaign;
 pub struct ParameterCertainty {
     /// Which.
     pub parameter: ArmParameter,
+    /// Whether its estimate is given; a refused one may be as uncertain as it says, or wrong.
+    pub given: bool,
     /// Its standard error; infinite where the logs do not tell it from others.
     pub std: f64,
     /// The standard error that it would have if the other parameters were known.
@@ -159,14 +160,8 @@ impl Separability {
 /// Of the regression that was taken; empty where another method was, which has no covariance of its own.
 fn of_regression(methods: &Methods, chosen: &Chosen) -> Judged {
     let regression = methods.regression.as_ref();
-    let terms = match chosen.method {
-        Some(Method::Regression) => regression.map(|r| &r.terms),
-        Some(Method::RegressionByDirection) => {
-            regression.and_then(|r| r.viscous_by_direction.as_ref()).map(|split| &split.terms)
-        }
-        Some(Method::FrictionLaw) => methods.friction_law.as_ref().map(|law| &law.chosen.joint),
-        _ => None,
-    };
+    let law = methods.friction_law.as_ref();
+    let terms = chosen.method.and_then(|method| slip_phase_terms(method, regression, law));
     terms.map_or_else(Judged::none, |terms| Judged::of_regression(terms, &chosen.drive))
 }
 
@@ -175,12 +170,4 @@ fn by_regression(methods: &Methods, used: &Campaign) -> Vec<RunShare> {
     let Some(fit) = methods.regression.as_ref() else { return Vec::new() };
     let judged = Judged::of_regression(&fit.terms, &fit.estimates());
     runs::shares_of_regression(&judged, fit, used)
-}
-
-/// With ones on its diagonal.
-fn correlation(covariance: &DMatrix<f64>) -> DMatrix<f64> {
-    let n = covariance.nrows();
-    DMatrix::from_fn(n, n, |i, j| {
-        covariance[(i, j)] / (covariance[(i, i)] * covariance[(j, j)]).sqrt()
-    })
 }

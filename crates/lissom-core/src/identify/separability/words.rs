@@ -67,7 +67,8 @@ impl Separability {
     }
 
     fn best_known(&self) -> String {
-        let own_size = self.parameters.iter().filter(|p| p.parameter != ArmParameter::Offset);
+        let own_size =
+            self.parameters.iter().filter(|p| p.given && p.parameter != ArmParameter::Offset);
         let best = own_size.min_by(|a, b| a.std.total_cmp(&b.std));
         best.filter(|_| self.parameters.len() > 1).map_or_else(String::new, |best| {
             format!(

@@ -12,7 +12,7 @@ use crate::identify::methods::regression::cluster_covariance::larger;
 use crate::identify::methods::regression::extra_delay::{changes_by_delay, extra_delay};
 use crate::identify::methods::regression::fitted::Fitted;
 use crate::identify::methods::regression::hidden_mode::{HiddenMode, ShownMode, shown_mode};
-use crate::identify::methods::regression::lag::{AngleLag, angle_lag};
+use crate::identify::methods::regression::lag::{AngleLag, LagShape, angle_lag};
 use crate::identify::methods::regression::left_out::{RunLeftOut, rms_speed, runs_left_out};
 use crate::identify::methods::regression::left_torque::LeftTorque;
 use crate::identify::methods::regression::missing::{
@@ -25,8 +25,9 @@ use crate::identify::methods::regression::motor_rows::MotorRows;
 use crate::identify::methods::regression::normal::{Cluster, Solution, Term};
 use crate::identify::methods::regression::scan::{Candidate, RATIO, Scan, change};
 use crate::identify::methods::regression::sums_by_length::SumsByLength;
+use crate::identify::methods::regression::terms::Terms;
 use crate::identify::methods::regression::thresholds::{
-    FEW_PHASES, GRAVITY_CORRELATION, GRAVITY_KNOWN, LONGER_WINDOW, USUAL_VARIATION,
+    FEW_PHASES, LONGER_WINDOW, USUAL_VARIATION,
 };
 use crate::identify::options::Options;
 use crate::identify::prepare::prepared::Prepared;
@@ -94,67 +95,6 @@ pub struct MotorRegression {
     pub(crate) beside_others: Vec<RunLeftOut>,
     /// J, V, CF, offset, κ_i of the tips whose angle is known, g_s and g_c, as the logs have them.
     pub(crate) terms: Terms,
-}
-
-/// Terms of the motor's equation together.
-#[derive(Debug, Clone, PartialEq)]
-pub(crate) struct Terms {
-    pub(crate) values: Vec<f64>,
-    pub(crate) covariance: DMatrix<f64>,
-    /// Changes, up to a factor, that the logs do not show.
-    pub(crate) lost: Vec<DVector<f64>>,
-    pub(crate) columns: MotorColumns,
-}
-
-/// A term that may be mistaken for gravity.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum GravityPartner {
-    /// Inertia: in a single sine of small amplitude, acceleration and angle are in proportion.
-    Inertia,
-    /// A constant load: over a short arc, gravity is nearly constant.
-    Offset,
-}
-
-impl Terms {
-    /// Those of a solution.
-    pub(crate) fn of(fitted: &Fitted<'_>) -> Self {
-        let s = fitted.solution;
-        Self {
-            values: s.value.iter().copied().collect(),
-            covariance: s.covariance.clone(),
-            lost: s.lost.clone(),
-            columns: fitted.columns.clone(),
-        }
-    }
-
-    /// The terms that gravity can hardly be told from, with their correlation: about the mean angle it is a slope, which
-    /// inertia may stand for, and a constant. Gravity that is known to [`GRAVITY_KNOWN`] of `amplitude` gives no pair.
-    pub(crate) fn pairs_with_gravity(
-        &self,
-        mean_rad: f64,
-        amplitude: f64,
-    ) -> Vec<(GravityPartner, f64)> {
-        let Some([sine, cosine]) = self.columns.gravity_places() else { return Vec::new() };
-        let (sin, cos) = mean_rad.sin_cos();
-        // g_s·sin θ + g_c·cos θ about the mean: slope g_s·cos θ̄ − g_c·sin θ̄, constant g_s·sin θ̄ + g_c·cos θ̄.
-        let parts = [
-            (GravityPartner::Inertia, PLACE_INERTIA, [cos, -sin]),
-            (GravityPartner::Offset, PLACE_OFFSET, [sin, cos]),
-        ];
-        let covariance = &self.covariance;
-        let pair = |(with, place, [by_sine, by_cosine]): (GravityPartner, usize, [f64; 2])| {
-            let variance = by_sine * by_sine * covariance[(sine, sine)]
-                + by_cosine * by_cosine * covariance[(cosine, cosine)]
-                + 2.0 * by_sine * by_cosine * covariance[(sine, cosine)];
-            let shared =
-                by_sine * covariance[(sine, place)] + by_cosine * covariance[(cosine, place)];
-            let correlation = shared / (variance * covariance[(place, place)]).sqrt();
-            let hardly = variance.max(0.0).sqrt() > GRAVITY_KNOWN * amplitude
-                && correlation.abs() > GRAVITY_CORRELATION;
-            hardly.then_some((with, correlation))
-        };
-        parts.into_iter().filter_map(pair).collect()
-    }
 }
 
 /// The fit of the same equation with viscous friction by direction.
@@ -399,6 +339,17 @@ impl MotorRegression {
     pub(crate) fn varies_by(&self) -> Option<f64> {
         let otherwise = self.missing.is_some() || self.lag.is_some();
         (!otherwise && self.left.is_between_phases()).then_some(self.left.varies_by)
+    }
+
+    /// The lag where it may be a delay of the command.
+    pub(crate) fn delay_lag(&self) -> Option<AngleLag> {
+        self.lag.filter(|lag| lag.shape != LagShape::Filter)
+    }
+
+    /// The same as a delay \[s\], of a filter the one that it has at low frequencies.
+    pub(crate) fn lag_s(&self) -> Option<Estimate> {
+        let lag = self.lag?;
+        Some(Estimate { value: lag.time_s, std: self.delay.map_or(0.0, |delay| delay.std) })
     }
 
     /// The estimates with one viscous coefficient.

@@ -8,8 +8,11 @@ use num_complex::Complex64;
 use crate::identify::estimate::{Estimate, ModeEstimate};
 use crate::identify::responses::correct::Response;
 use crate::identify::responses::rational::beam::{BeamFit, Data, TipData, functions};
-use crate::identify::responses::rational::motor::{MotorData, MotorFit, Solution, finish, solve};
-use crate::identify::responses::rational::{Pole, information};
+use crate::identify::responses::rational::fit_covariance::joined;
+use crate::identify::responses::rational::motor::{
+    MotorData, MotorFit, Solution, finish, least_squares, solve,
+};
+use crate::identify::responses::rational::{Pole, information, part_error};
 use crate::identify::responses::thresholds::CRITERION_CALLED_FOR;
 use crate::information::{Inverse, inverted};
 
@@ -45,8 +48,8 @@ pub(crate) fn fit_at_once(
         tips: &data,
         motor,
         modes: &start.mode_poles,
-        tips_weight: 1.0 / start.weighted_rms.max(1.0),
-        motor_weight: 1.0 / alone.weighted_rms().max(1.0),
+        tips_weight: 1.0 / part_error(start.weighted_rms),
+        motor_weight: 1.0 / part_error(alone.weighted_rms()),
         fastest_rad_s: motor.omega_rad_s.iter().copied().fold(0.0, f64::max),
         x: DVector::from_iterator(
             2 * poles,
@@ -59,7 +62,7 @@ pub(crate) fn fit_at_once(
     let delayed = minimal(delayed);
     if delayed.information()? + CRITERION_CALLED_FOR < problem.information()? {
         let left = delayed.linear()?.motor.weighted_rms();
-        problem = minimal(JointProblem { motor_weight: 1.0 / left.max(1.0), ..delayed });
+        problem = minimal(JointProblem { motor_weight: 1.0 / part_error(left), ..delayed });
     }
     problem.finished(tips, start)
 }
@@ -152,6 +155,67 @@ impl JointProblem<'_> {
         slopes.iter().all(|v| v.is_finite()).then_some(slopes)
     }
 
+    /// Slopes of ω_k and ζ_k of each pole and of the delay \[s\] by the unknowns: one a row.
+    fn units(&self) -> DMatrix<f64> {
+        let n = self.x.len();
+        let poles = self.poles();
+        let unit = |k: usize| match poles.get(k / 2) {
+            Some(pole) if k.is_multiple_of(2) => pole.omega_rad_s,
+            Some(_) => 1.0,
+            None => 1.0 / self.fastest_rad_s,
+        };
+        DMatrix::from_diagonal(&DVector::from_iterator(n, (0..n).map(unit)))
+    }
+
+    /// Slopes of J, V and c_k by the modes' ω_k and ζ_k and by the delay, and the covariance of these.
+    fn of_motor(&self, covariance: &DMatrix<f64>) -> Option<(DMatrix<f64>, DMatrix<f64>)> {
+        let units = self.units();
+        let slopes = self.slopes(|l| l.motor.value.clone())?;
+        let delay = 2 * (self.x.len() / 2);
+        let places: Vec<usize> =
+            self.modes.iter().flat_map(|&k| [2 * k, 2 * k + 1]).chain([delay]).collect();
+        let n = places.len();
+        // Nothing stands for a delay that is not there.
+        let others = (&units * covariance * &units).resize(delay + 1, delay + 1, 0.0);
+        let others = DMatrix::from_fn(n, n, |i, k| others[(places[i], places[k])]);
+        let by_unit =
+            DMatrix::from_fn(slopes.nrows(), slopes.ncols(), |i, k| slopes[(i, k)] / units[(k, k)]);
+        let by_unit = by_unit.resize_horizontally(delay + 1, 0.0);
+        Some((DMatrix::from_fn(slopes.nrows(), n, |i, k| by_unit[(i, places[k])]), others))
+    }
+
+    /// Covariance of ω_k and ζ_k of each pole, then of the residues tip by tip.
+    fn beam_covariance(
+        &self,
+        poles: &[Pole],
+        spread: f64,
+        covariance: &DMatrix<f64>,
+    ) -> Option<DMatrix<f64>> {
+        let (count, tips) = (poles.len(), self.tips.len());
+        let mut known = DMatrix::zeros(count * tips, count * tips);
+        for tip in 0..tips {
+            let (rows, b) = self.tips.residue_rows(tip, poles);
+            let (_, own) = least_squares(&rows, &b)?;
+            let scale = (spread / self.tips_weight).powi(2);
+            let first = tip * count;
+            known.view_mut((first, first), (count, count)).copy_from(&(own * scale));
+        }
+        let of_residues = |l: &Linear| {
+            let all = l.residues.iter().flat_map(|r| r.iter().copied());
+            DVector::from_iterator(count * tips, all)
+        };
+        let residues_first = joined(&known, &self.slopes(of_residues)?, covariance);
+        // The poles first, in their units, and no delay.
+        let places: Vec<usize> =
+            (0..2 * count).map(|k| count * tips + k).chain(0..count * tips).collect();
+        let units = self.units();
+        let unit = |i: usize| if i < 2 * count { units[(i, i)] } else { 1.0 };
+        let n = places.len();
+        Some(DMatrix::from_fn(n, n, |i, k| {
+            residues_first[(places[i], places[k])] * unit(i) * unit(k)
+        }))
+    }
+
     /// The fits of either side, with standard errors that count those of the poles and the delay.
     fn finished(&self, tips: &[TipData], start: &BeamFit) -> Option<AtOnce> {
         let linear = self.linear()?;
@@ -164,9 +228,6 @@ impl JointProblem<'_> {
         }
         let covariance = matrix * (spread * spread);
         let std = |k: usize| covariance[(k, k)].max(0.0).sqrt();
-        let through =
-            |slopes: DMatrix<f64>| (&slopes * &covariance * slopes.transpose()).diagonal();
-
         let poles = self.poles();
         if !poles.is_sorted_by(|a, b| a.omega_rad_s < b.omega_rad_s) {
             return None;
@@ -178,24 +239,27 @@ impl JointProblem<'_> {
             },
             damping_ratio: Estimate { value: poles[k].damping_ratio, std: std(2 * k + 1) },
         };
-        let residues = start.residues.iter().zip(&linear.residues).map(|(before, now)| {
-            before.iter().zip(now).map(|(b, value)| Estimate { value: *value, ..*b }).collect()
-        });
-        let residues: Vec<Vec<Estimate>> = residues.collect();
+        let of_beam = self.beam_covariance(&poles, spread, &covariance)?;
+        let count = poles.len();
+        let residue = |tip: usize, k: usize| {
+            let place = 2 * count + tip * count + k;
+            let std = of_beam[(place, place)].max(0.0).sqrt();
+            Estimate { value: linear.residues[tip][k], std }
+        };
+        let residues: Vec<Vec<Estimate>> =
+            (0..tips.len()).map(|tip| (0..count).map(|k| residue(tip, k)).collect()).collect();
         let beam = BeamFit {
             modes: self.modes.iter().map(mode).collect(),
-            transfer_functions: functions(&poles, &residues, tips),
+            transfer_functions: functions(&poles, &residues, &start.forms),
             residues,
+            covariance: of_beam,
             poles,
             ..start.clone()
         };
 
-        let by_poles = through(self.slopes(|l| l.motor.value.clone())?);
-        let mut motor = finish(&self.undelayed(), &self.modal_poles(), true, &linear.motor);
-        let counted = |e: &mut Estimate, i: usize| e.std = e.std.hypot(by_poles[i].max(0.0).sqrt());
-        counted(&mut motor.inertia, 0);
-        counted(&mut motor.viscous, 1);
-        motor.coupling.iter_mut().enumerate().for_each(|(k, c)| counted(c, 2 + k));
+        let motor = finish(&self.undelayed(), &self.modal_poles(), true, &linear.motor);
+        let (slopes, others) = self.of_motor(&covariance)?;
+        let mut motor = motor.with_errors_of(&slopes, &others);
         let last = self.x.len() - 1;
         motor.delay_s = self.has_delay().then(|| {
             Estimate { value: self.x[last], std: std(last) }.scaled(1.0 / self.fastest_rad_s)

@@ -7,8 +7,9 @@ use num_complex::Complex64;
 
 use crate::identify::estimate::{Estimate, ModeEstimate};
 use crate::identify::responses::correct::Response;
+use crate::identify::responses::rational::fit_covariance::{joined, of_coefficients};
 use crate::identify::responses::rational::{
-    Pole, common_denominator, information, others, trial_frequencies,
+    Pole, common_denominator, information, others, part_error, trial_frequencies,
 };
 use crate::identify::responses::thresholds::{
     MODE_DAMPING_MOST, MODES_MOST, POLE_ABOVE, POLE_BELOW, POLE_DAMPING_LEAST, POLE_DAMPING_MOST,
@@ -16,7 +17,7 @@ use crate::identify::responses::thresholds::{
 };
 use crate::identify::thresholds::{CLEARLY_PRESENT, SIGN_SHOWN};
 use crate::information::covariance;
-use crate::lti::{TransferFunction, add, multiply};
+use crate::lti::{CoefficientCovariance, TransferFunction, add, multiply};
 
 /// Damping ratio with which a new mode starts.
 const START_DAMPING: f64 = 0.02;
@@ -58,6 +59,10 @@ pub struct BeamFit {
     pub weighted_rms: f64,
     /// Root mean square of the residuals relative to that of the responses \[1\].
     pub relative_residual: f64,
+    /// Form of each tip's model.
+    pub(super) forms: Vec<TipForm>,
+    /// Covariance of ω_k \[rad/s\] and ζ_k of each pole, then of the residues tip by tip.
+    pub(super) covariance: DMatrix<f64>,
 }
 
 /// Fits the responses of the tips with common poles, weighted with their standard errors.
@@ -171,6 +176,14 @@ impl Data {
         tip: usize,
         poles: &[Pole],
     ) -> Option<(DVector<f64>, DVector<f64>)> {
+        let (a, b) = self.residue_rows(tip, poles);
+        let solution = a.clone().svd(true, true).solve(&b, 1e-12).ok()?;
+        let left = b - a * &solution;
+        Some((solution, left))
+    }
+
+    /// Rows of the residues of one tip over the standard errors of its responses.
+    pub(super) fn residue_rows(&self, tip: usize, poles: &[Pole]) -> (DMatrix<f64>, DVector<f64>) {
         let m = self.omega.len();
         let mut a = DMatrix::zeros(2 * m, poles.len());
         let mut b = DVector::zeros(2 * m);
@@ -181,9 +194,7 @@ impl Data {
             }
             (b[2 * row], b[2 * row + 1]) = (weight * value.re, weight * value.im);
         }
-        let solution = a.clone().svd(true, true).solve(&b, 1e-12).ok()?;
-        let left = b - a * &solution;
-        Some((solution, left))
+        (a, b)
     }
 
     fn residues(&self, poles: &[Pole]) -> Option<Vec<DVector<f64>>> {
@@ -314,7 +325,7 @@ impl BeamFit {
     /// The model of one tip and one mode: `ω²/(s² + 2ζω·s + ω²)`, as (36).
     pub(crate) fn of_mode(mode: ModeEstimate) -> Self {
         let omega = mode.natural_frequency_rad_s;
-        let pole = Pole { omega_rad_s: omega.value, damping_ratio: mode.damping_ratio.value };
+        let pole = Pole::of_mode(&mode);
         let gain = omega.value * omega.value;
         let residue = Estimate { value: gain, std: 2.0 * omega.value * omega.std };
         Self {
@@ -328,7 +339,43 @@ impl BeamFit {
             }],
             weighted_rms: 0.0,
             relative_residual: 0.0,
+            forms: vec![TipForm::Angle],
+            // The residue is ω².
+            covariance: joined(
+                &DMatrix::zeros(1, 1),
+                &DMatrix::from_row_slice(1, 2, &[2.0 * omega.value, 0.0]),
+                &DMatrix::from_diagonal(&DVector::from_vec(vec![
+                    omega.std.powi(2),
+                    mode.damping_ratio.std.powi(2),
+                ])),
+            ),
         }
+    }
+
+    /// Covariance of ω_k \[rad/s\] and ζ_k of each mode; `None` if they are not told.
+    pub(crate) fn modal_covariance(&self) -> Option<DMatrix<f64>> {
+        let places: Vec<usize> = self.mode_poles.iter().flat_map(|&k| [2 * k, 2 * k + 1]).collect();
+        let n = places.len();
+        let own = DMatrix::from_fn(n, n, |i, k| self.covariance[(places[i], places[k])]);
+        own.iter().all(|v| v.is_finite()).then_some(own)
+    }
+
+    /// Covariance of the coefficients of the transfer function of a tip and of its delay, which is not estimated.
+    pub(crate) fn coefficient_covariance(&self, tip: usize) -> Option<CoefficientCovariance> {
+        let (form, count) = (*self.forms.get(tip)?, self.poles.len());
+        let first = 2 * count + tip * count;
+        let places: Vec<usize> = (0..2 * count).chain(first..first + count).collect();
+        let n = places.len();
+        let own = DMatrix::from_fn(n, n, |i, k| self.covariance[(places[i], places[k])]);
+        let of_poles = self.poles.iter().flat_map(|p| [p.omega_rad_s, p.damping_ratio]);
+        let residues = self.residues[tip].iter().map(|r| r.value);
+        let unknowns = DVector::from_iterator(n + 1, of_poles.chain(residues).chain([0.0]));
+        of_coefficients(&unknowns, &own.resize(n + 1, n + 1, 0.0), |x| {
+            let pole = |k: usize| Pole { omega_rad_s: x[2 * k], damping_ratio: x[2 * k + 1] };
+            let poles: Vec<Pole> = (0..count).map(pole).collect();
+            let residues: Vec<f64> = x.rows(2 * count, count).iter().copied().collect();
+            function(&poles, &residues, form)
+        })
     }
 
     /// The poles that are modes, ascending.
@@ -342,8 +389,7 @@ fn finish(data: &Data, tips: &[TipData], solved: &BeamProblem) -> Option<BeamFit
     let residuals = solved.residuals()?;
     let free = residuals.len().saturating_sub(solved.x.len()).max(1) as f64;
     let weighted_rms = (residuals.norm_squared() / free).sqrt();
-    // Weights may be wrong by a factor: the residual sets it, but never below what they claim.
-    let spread = weighted_rms.max(1.0);
+    let spread = part_error(weighted_rms);
     let covariance = covariance(&jacobian.tr_mul(&jacobian));
     let std = |i: usize| spread * covariance[(i, i)].max(0.0).sqrt();
     let found = solved.poles();
@@ -380,7 +426,15 @@ fn finish(data: &Data, tips: &[TipData], solved: &BeamProblem) -> Option<BeamFit
                 .collect()
         })
         .collect();
-    let transfer_functions = functions(&poles, &residues, tips);
+    let forms: Vec<TipForm> = tips.iter().map(|tip| tip.form).collect();
+    let transfer_functions = functions(&poles, &residues, &forms);
+    let of_poles = order.iter().flat_map(|k| [2 * k, 2 * k + 1]);
+    let of_residues = (0..tips.len()).flat_map(|i| order.iter().map(move |&k| (i, k)));
+    let places: Vec<usize> =
+        of_poles.chain(of_residues.map(|(i, k)| solved.residue(i, k))).collect();
+    let covariance = DMatrix::from_fn(places.len(), places.len(), |i, k| {
+        spread * spread * covariance[(places[i], places[k])]
+    });
     let (mut left, mut power) = (0.0, 0.0);
     solved.rows(|row, _, _, value, weight| {
         left += (residuals[row].powi(2) + residuals[row + 1].powi(2)) / (weight * weight);
@@ -394,6 +448,8 @@ fn finish(data: &Data, tips: &[TipData], solved: &BeamProblem) -> Option<BeamFit
         transfer_functions,
         weighted_rms,
         relative_residual: (left / power).sqrt(),
+        forms,
+        covariance,
     })
 }
 
@@ -401,19 +457,23 @@ fn finish(data: &Data, tips: &[TipData], solved: &BeamProblem) -> Option<BeamFit
 pub(super) fn functions(
     poles: &[Pole],
     residues: &[Vec<Estimate>],
-    tips: &[TipData],
+    forms: &[TipForm],
 ) -> Vec<TransferFunction> {
-    let of_tip = |(row, tip): (&Vec<Estimate>, &TipData)| {
-        let mut num = row
-            .iter()
-            .enumerate()
-            .fold(Vec::new(), |sum, (k, r)| add(&sum, &multiply(&[r.value], &others(poles, k))));
-        if tip.form == TipForm::SecondDerivative {
-            num.extend([0.0, 0.0]);
-        }
-        TransferFunction { num, den: common_denominator(poles) }
+    let of_tip = |(row, form): (&Vec<Estimate>, &TipForm)| {
+        let residues: Vec<f64> = row.iter().map(|r| r.value).collect();
+        function(poles, &residues, *form)
     };
-    residues.iter().zip(tips).map(of_tip).collect()
+    residues.iter().zip(forms).map(of_tip).collect()
+}
+
+fn function(poles: &[Pole], residues: &[f64], form: TipForm) -> TransferFunction {
+    let each = residues.iter().enumerate();
+    let mut num =
+        each.fold(Vec::new(), |sum, (k, r)| add(&sum, &multiply(&[*r], &others(poles, k))));
+    if form == TipForm::SecondDerivative {
+        num.extend([0.0, 0.0]);
+    }
+    TransferFunction { num, den: common_denominator(poles) }
 }
 
 #[cfg(test)]

@@ -5,6 +5,7 @@ mod beam;
 mod columns;
 mod coupling;
 mod evidence;
+mod fit_covariance;
 mod motor;
 mod origin;
 mod pole_damping;
@@ -28,6 +29,8 @@ pub use shared_poles_error::SharedPolesError;
 
 use num_complex::Complex64;
 
+use crate::identify::estimate::ModeEstimate;
+
 /// A pair of poles, `s² + 2ζω·s + ω²`.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Pole {
@@ -38,6 +41,14 @@ pub struct Pole {
 }
 
 impl Pole {
+    /// Of a mode.
+    pub(crate) fn of_mode(mode: &ModeEstimate) -> Self {
+        Self {
+            omega_rad_s: mode.natural_frequency_rad_s.value,
+            damping_ratio: mode.damping_ratio.value,
+        }
+    }
+
     /// Value of `s² + 2ζω·s + ω²` at `s = jω_0`, with ω_0 = `omega_rad_s`.
     pub fn denominator(&self, omega_rad_s: f64) -> Complex64 {
         let w = self.omega_rad_s;
@@ -52,6 +63,13 @@ impl Pole {
         let w = self.omega_rad_s;
         [1.0, 2.0 * self.damping_ratio * w, w * w]
     }
+}
+
+/// Standard error of the real and of the imaginary part of a response, in its own standard error, after a fit that left
+/// `weighted_rms` of it: weights may be wrong by a factor, which what is left sets, but never below what they claim,
+/// which is `1/√2` of it for either part.
+pub(crate) fn part_error(weighted_rms: f64) -> f64 {
+    weighted_rms.max(std::f64::consts::FRAC_1_SQRT_2)
 }
 
 /// Product of all pole pairs, descending powers.

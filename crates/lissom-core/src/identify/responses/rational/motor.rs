@@ -3,18 +3,23 @@
 use nalgebra::{DMatrix, DVector};
 use num_complex::Complex64;
 
-use crate::identify::estimate::Estimate;
+use crate::identify::estimate::{Estimate, ModeEstimate};
 use crate::identify::responses::correct::Response;
+use crate::identify::responses::rational::fit_covariance::{joined, of_coefficients};
 use crate::identify::responses::rational::{
-    Pole, common_denominator, information, others, trial_frequencies,
+    Pole, common_denominator, information, others, part_error, trial_frequencies,
 };
 use crate::identify::responses::thresholds::RESPONSE_FLOOR;
-use crate::lti::{TransferFunction, add, multiply};
+use crate::information::{Inverse, inverted};
+use crate::lti::{CoefficientCovariance, TransferFunction, add, multiply};
+use crate::record::Command;
 
 /// Damping ratios tried for a pole that no tip shows.
 const TRIAL_DAMPING: [f64; 4] = [0.005, 0.02, 0.06, 0.15];
 /// Halvings of the grid about the best trial pole.
 const REFINEMENTS: usize = 12;
+/// Share of a pole over which slopes are taken to either side.
+const STEP: f64 = 1e-6;
 
 /// The motor's response, corrected for friction.
 #[derive(Debug, Clone)]
@@ -48,6 +53,11 @@ pub struct MotorFit {
     /// Root mean square of the residuals divided by their standard errors; zero for a model that
     /// was built from other estimates.
     pub weighted_rms: f64,
+    /// Torque per unit of command.
+    torque_per_command: f64,
+    /// Covariance of J, V, c_k, then of ω_k \[rad/s\] and ζ_k of each pole, then of the delay \[s\]; poles that were given
+    /// have none until [`MotorFit::with_poles_of`].
+    covariance: DMatrix<f64>,
 }
 
 /// Fits `K/G(s) = J·s² + V·s + Σ c_k(s² + 2ζ_kω_k·s)/(s² + 2ζ_kω_k·s + ω_k²)` to the motor's response G, weighted with
@@ -79,7 +89,10 @@ pub fn fit_motor(data: &MotorData, poles: Option<&[Pole]>) -> Option<MotorFit> {
         information(n, 5, s.cost()) < information(n, 2, rigid.cost()) && s.value[2] > 0.0
     });
     Some(match flexible {
-        Some((pole, s)) => finish(data, &[pole], false, &s),
+        Some((pole, s)) => {
+            let fit = finish(data, &[pole], false, &s);
+            fit.with_poles_of(data, pole_covariance(data, pole, fit.weighted_rms).as_ref())
+        }
         None => finish(data, &[], false, &rigid),
     })
 }
@@ -91,34 +104,141 @@ impl MotorFit {
         self.transfer_function.response(omega_rad_s) * Complex64::cis(-omega_rad_s * delay_s)
     }
 
-    /// The model that the regression's estimates make: rigid, or with the one mode of `pole` through
-    /// which the beam is coupled. The command's `torque_per_command` and the damping of its
-    /// back-EMF, `back_emf_viscous`, are those of the channel.
+    /// The model that a regression's estimates make: rigid, or with the one mode of `mode` through which the beam is
+    /// coupled. `drive` are J, V without back-EMF and the coupling, if there is a mode, with their `correlation`.
     pub(crate) fn of_estimates(
-        inertia: Estimate,
-        viscous: Estimate,
-        mode: Option<(Pole, Estimate)>,
+        drive: &[Estimate],
+        correlation: &DMatrix<f64>,
+        mode: Option<ModeEstimate>,
+        command: &Command,
+    ) -> Option<Self> {
+        let (&[inertia, viscous], coupling) = drive.split_first_chunk()?;
+        let viscous = Estimate { value: viscous.value + command.back_emf_viscous, ..viscous };
+        let poles: Vec<Pole> = mode.iter().map(Pole::of_mode).collect();
+        let all = [inertia, viscous].into_iter().chain(coupling.iter().copied());
+        let known = DMatrix::from_fn(drive.len(), drive.len(), |i, k| {
+            correlation[(i, k)] * drive[i].std * drive[k].std
+        });
+        let of_mode = mode.iter().flat_map(|m| [m.natural_frequency_rad_s, m.damping_ratio]);
+        let others = of_mode.map(|e| e.std * e.std).chain([0.0]);
+        let others = DMatrix::from_diagonal(&DVector::from_iterator(2 * poles.len() + 1, others));
+        let value = DVector::from_iterator(drive.len(), all.map(|e| e.value));
+        let slopes = DMatrix::zeros(drive.len(), others.nrows());
+        Some(Self::of_values(
+            &value,
+            &joined(&known, &slopes, &others),
+            poles,
+            command.torque_per_unit(),
+        ))
+    }
+
+    /// The same with a delay of the command \[s\] that does not depend on the others.
+    pub(crate) fn with_delay(mut self, delay_s: Estimate) -> Self {
+        let last = self.covariance.nrows() - 1;
+        self.covariance[(last, last)] = delay_s.std * delay_s.std;
+        Self { delay_s: Some(delay_s), ..self }
+    }
+
+    /// Of J, V and c_k, without a delay. The covariance is that of all, of the poles and of the delay.
+    fn of_values(
+        value: &DVector<f64>,
+        covariance: &DMatrix<f64>,
+        poles: Vec<Pole>,
         torque_per_command: f64,
-        back_emf_viscous: f64,
     ) -> Self {
-        let poles: Vec<Pole> = mode.iter().map(|m| m.0).collect();
-        let coupling: Vec<Estimate> = mode.iter().map(|m| m.1).collect();
-        let viscous = Estimate { value: viscous.value + back_emf_viscous, ..viscous };
+        let estimate =
+            |i: usize| Estimate { value: value[i], std: covariance[(i, i)].max(0.0).sqrt() };
+        let coupling: Vec<Estimate> = (2..value.len()).map(estimate).collect();
         Self {
+            inertia: estimate(0),
+            viscous: estimate(1),
             transfer_function: transfer_function(
-                [inertia.value, viscous.value],
+                [value[0], value[1]],
                 &coupling.iter().map(|c| c.value).collect::<Vec<_>>(),
                 &poles,
                 torque_per_command,
             ),
-            inertia,
-            viscous,
             coupling,
             poles,
             poles_given: true,
             delay_s: None,
             weighted_rms: 0.0,
+            torque_per_command,
+            covariance: covariance.clone(),
         }
+    }
+
+    /// The same with the errors of the poles counted: `of_poles` is the covariance of ω_k \[rad/s\] and ζ_k of each. If
+    /// that is unknown, or `data` have no solution beside the poles, so is that of the transfer function.
+    pub(crate) fn with_poles_of(&self, data: &MotorData, of_poles: Option<&DMatrix<f64>>) -> Self {
+        let counted = of_poles.and_then(|own| Some((own, self.slopes_by_poles(data)?)));
+        let (first, n) = (2 + self.poles.len(), 2 * self.poles.len());
+        let Some((of_poles, slopes)) = counted else {
+            let mut covariance = self.covariance.clone();
+            covariance.view_mut((first, first), (n, n)).fill(f64::NAN);
+            return Self { covariance, ..self.clone() };
+        };
+        self.with_errors_of(&slopes, &of_poles.clone().resize(n + 1, n + 1, 0.0))
+    }
+
+    /// Slopes of J, V and c_k by ω_k and ζ_k of each pole, and by the delay, which is not there.
+    fn slopes_by_poles(&self, data: &MotorData) -> Option<DMatrix<f64>> {
+        let beside = |k: usize, by: f64| {
+            let mut poles = self.poles.clone();
+            let pole = poles.get_mut(k / 2)?;
+            match k % 2 {
+                0 => pole.omega_rad_s *= 1.0 + by,
+                _ => pole.damping_ratio += by,
+            }
+            Some(solve(data, &poles)?.value)
+        };
+        let column = |k: usize| {
+            let size = if k.is_multiple_of(2) { self.poles[k / 2].omega_rad_s } else { 1.0 };
+            Some((beside(k, STEP)? - beside(k, -STEP)?) / (2.0 * STEP * size))
+        };
+        let n = 2 * self.poles.len();
+        let columns = (0..n).map(column).collect::<Option<Vec<_>>>()?;
+        Some(DMatrix::from_fn(2 + self.poles.len(), n + 1, |i, k| {
+            columns.get(k).map_or(0.0, |column| column[i])
+        }))
+    }
+
+    /// The same with the errors of poles and delay counted, whose covariance is `others`; `slopes` are those of J, V and
+    /// c_k by them.
+    pub(super) fn with_errors_of(&self, slopes: &DMatrix<f64>, others: &DMatrix<f64>) -> Self {
+        let own = 2 + self.poles.len();
+        let known = self.covariance.view((0, 0), (own, own)).into_owned();
+        let covariance = joined(&known, slopes, others);
+        let counted =
+            |e: Estimate, i: usize| Estimate { std: covariance[(i, i)].max(0.0).sqrt(), ..e };
+        let coupling = self.coupling.iter().enumerate();
+        Self {
+            inertia: counted(self.inertia, 0),
+            viscous: counted(self.viscous, 1),
+            coupling: coupling.map(|(k, c)| counted(*c, 2 + k)).collect(),
+            covariance,
+            ..self.clone()
+        }
+    }
+
+    /// Covariance of the coefficients of the transfer function and of the delay.
+    pub(crate) fn coefficient_covariance(&self) -> Option<CoefficientCovariance> {
+        let (modes, first) = (self.poles.len(), 2 + self.poles.len());
+        let drive = [self.inertia, self.viscous].into_iter().chain(self.coupling.iter().copied());
+        let of_poles = self.poles.iter().flat_map(|p| [p.omega_rad_s, p.damping_ratio]);
+        let late = self.delay_s.map_or(0.0, |delay| delay.value);
+        let all = drive.map(|e| e.value).chain(of_poles).chain([late]);
+        let unknowns = DVector::from_iterator(first + 2 * modes + 1, all);
+        of_coefficients(&unknowns, &self.covariance, |x| {
+            let poles: Vec<Pole> = (0..modes)
+                .map(|k| Pole {
+                    omega_rad_s: x[first + 2 * k],
+                    damping_ratio: x[first + 2 * k + 1],
+                })
+                .collect();
+            let coupling: Vec<f64> = x.rows(2, modes).iter().copied().collect();
+            transfer_function([x[0], x[1]], &coupling, &poles, self.torque_per_command)
+        })
     }
 }
 
@@ -291,28 +411,29 @@ pub(super) fn finish(
     s: &Solution,
 ) -> MotorFit {
     let weighted_rms = s.weighted_rms();
-    let spread = weighted_rms.max(1.0);
-    let estimate = |i: usize| Estimate {
-        value: s.value[i],
-        std: spread * s.covariance[(i, i)].max(0.0).sqrt(),
+    let known = &s.covariance * part_error(weighted_rms).powi(2);
+    let (own, all) = (known.nrows(), known.nrows() + 2 * poles.len() + 1);
+    let covariance =
+        joined(&known, &DMatrix::zeros(own, all - own), &DMatrix::zeros(all - own, all - own));
+    let fit = MotorFit::of_values(&s.value, &covariance, poles.to_vec(), data.torque_per_command);
+    MotorFit { poles_given, weighted_rms, ..fit }
+}
+
+/// Covariance of ω \[rad/s\] and ζ of the one pole that was fitted; `None` if the response does not tell them.
+fn pole_covariance(data: &MotorData, pole: Pole, weighted_rms: f64) -> Option<DMatrix<f64>> {
+    let left = |by_omega: f64, by_damping: f64| {
+        let pole = Pole {
+            omega_rad_s: pole.omega_rad_s * (1.0 + by_omega),
+            damping_ratio: pole.damping_ratio + by_damping,
+        };
+        Some(solve(data, &[pole])?.left)
     };
-    let coupling: Vec<Estimate> = (0..poles.len()).map(|k| estimate(2 + k)).collect();
-    let values: Vec<f64> = coupling.iter().map(|c| c.value).collect();
-    MotorFit {
-        inertia: estimate(0),
-        viscous: estimate(1),
-        coupling,
-        poles: poles.to_vec(),
-        poles_given,
-        transfer_function: transfer_function(
-            [s.value[0], s.value[1]],
-            &values,
-            poles,
-            data.torque_per_command,
-        ),
-        delay_s: None,
-        weighted_rms,
-    }
+    let by_omega = (left(STEP, 0.0)? - left(-STEP, 0.0)?) / (2.0 * STEP * pole.omega_rad_s);
+    let by_damping = (left(0.0, STEP)? - left(0.0, -STEP)?) / (2.0 * STEP);
+    let jacobian = DMatrix::from_columns(&[by_omega, by_damping]);
+    let Inverse { matrix, lost } = inverted(&jacobian.tr_mul(&jacobian));
+    let told = lost.iter().all(|lost| !lost) && matrix.iter().all(|v| v.is_finite());
+    told.then(|| matrix * part_error(weighted_rms).powi(2))
 }
 
 #[cfg(test)]

@@ -1,0 +1,59 @@
+//! Ordinary least squares with Coulomb friction and one viscous coefficient, beside a result with another friction law.
+
+use lissom_io::result::finding_keys::{COULOMB, GRAVITY, INERTIA, OFFSET, VISCOUS};
+use lissom_io::result::{EstimateEntry, LeastSquaresEntry, MethodName};
+use lissom_io::{ResultFile, UnitNames};
+use lissom_report::significant;
+
+use crate::parameter_rows::{ParameterRow, given};
+
+/// Its parameters, one row for each, and how they were found.
+#[derive(Debug, Clone)]
+pub struct LeastSquaresRows {
+    /// One row for each parameter that it gives.
+    pub rows: Vec<ParameterRow>,
+    /// Speeds and residual, in a sentence.
+    pub words: String,
+}
+
+/// `None` if the result's own friction is Coulomb friction with one viscous coefficient, or without least squares.
+pub fn least_squares_rows(names: UnitNames, result: &ResultFile) -> Option<LeastSquaresRows> {
+    let f = &result.friction;
+    let by_direction = f.viscous_forward.get(names).is_some();
+    let by_law = result.from == Some(MethodName::FrictionLaw);
+    if f.terms.near_rest.is_none() && !by_direction && !by_law {
+        return None;
+    }
+    let fit = result.methods.least_squares.as_ref()?;
+    let [slowest, fastest] = *fit.speed_range.get(names)?;
+    let words = format!(
+        "least squares of all motion with Coulomb friction and one viscous coefficient, at speeds from {} to {} {}/s; \
+         residual torque {:.2} %",
+        significant(slowest, 3),
+        significant(fastest, 3),
+        names.angle(),
+        100.0 * fit.relative_residual
+    );
+    Some(LeastSquaresRows { rows: rows(names, fit), words })
+}
+
+fn rows(names: UnitNames, fit: &LeastSquaresEntry) -> Vec<ParameterRow> {
+    let torque = || names.torque_unit().to_owned();
+    let gravity = fit.gravity.as_ref().and_then(|g| g.amplitude.get(names));
+    let all = [
+        ("Coulomb friction", COULOMB, given(fit.coulomb.coulomb.get(names)), torque()),
+        ("offset", OFFSET, given(fit.coulomb.offset.get(names)), torque()),
+        ("viscous friction", VISCOUS, given(fit.viscous.get(names)), names.viscous_unit()),
+        (names.inertia_name(), INERTIA, given(fit.inertia.get(names)), names.inertia_unit()),
+        ("gravity, m·g·l", GRAVITY, gravity.map(EstimateEntry::estimate), torque()),
+    ];
+    let all = all.into_iter().filter(|(_, _, estimate, _)| estimate.is_some());
+    all.map(|(name, key, estimate, unit)| ParameterRow {
+        name: name.to_owned(),
+        key,
+        estimate,
+        unit,
+        known: None,
+    })
+    .collect()
+}
