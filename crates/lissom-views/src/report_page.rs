@@ -186,6 +186,20 @@ fn motion_section(
     )
 }
 
+/// What to know of the bands of the models.
+fn of_band(result: &ResultFile) -> String {
+    let models = &result.models;
+    let doubted_by = result.verdict.as_ref().map_or(&[][..], |verdict| &verdict.doubted_by);
+    match (&models.motor, &models.motor_covariance) {
+        (None, _) => String::new(),
+        (Some(_), None) => NO_BAND.to_owned(),
+        (Some(_), Some(_)) if doubted_by.is_empty() => String::new(),
+        (Some(_), Some(_)) => {
+            format!(" Its band does not count what the model lacks ({}).", doubted_by.join(", "))
+        }
+    }
+}
+
 /// Bode plots, and the poles and zeros of their models.
 fn response_section(
     mut page: Page,
@@ -197,14 +211,13 @@ fn response_section(
     if !bode.is_empty() {
         page = page.heading("Frequency responses");
     }
-    let has_bands = result.models.motor.is_none() || result.models.motor_covariance.is_some();
-    let no_band = if has_bands { "" } else { NO_BAND };
+    let of_band = of_band(result);
     for (_, plot) in &bode {
         page = page.figure(
             plot,
             &format!(
                 "Points: runs, or frequency bands. Line: the model, fitted to the points or computed from the \
-                 parameters.{no_band}"
+                 parameters.{of_band}"
             ),
         );
     }

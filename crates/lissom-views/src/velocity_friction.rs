@@ -120,26 +120,27 @@ pub(crate) fn in_torque(names: UnitNames, result: &ResultFile) -> Option<[Fricti
 pub fn stretch_table(names: UnitNames, result: &ResultFile) -> Table {
     let velocity = format!("velocity ({}/s)", names.angle());
     let command = format!("{} ({})", names.command_name(), names.command_unit());
-    let mut table = Table::new(
-        "Stretches at a constant velocity",
-        &[
-            ("run", Cells::Text),
-            ("from (s)", Cells::Numbers),
-            ("to (s)", Cells::Numbers),
-            (&velocity, Cells::Numbers),
-            (&command, Cells::Numbers),
-            ("standard error", Cells::Numbers),
-        ],
-    );
+    let columns: [(&str, Cells); 6] = [
+        ("run", Cells::Text),
+        ("from (s)", Cells::Numbers),
+        ("to (s)", Cells::Numbers),
+        (&velocity, Cells::Numbers),
+        (&command, Cells::Numbers),
+        ("standard error", Cells::Numbers),
+    ];
+    // All are of the one run.
+    let first = usize::from(result.runs.len() == 1);
+    let mut table = Table::new("Stretches at a constant velocity", &columns[first..]);
     for p in result.methods.constant_velocity.iter().flat_map(|c| &c.points) {
-        table = table.row([
+        let cells = [
             p.run.clone(),
             format!("{:.3}", p.start_s),
             format!("{:.3}", p.end_s),
             digits(p.velocity.get(names).map(|e| e.value)),
             digits(p.command.get(names).map(|e| e.value)),
             digits(p.command.get(names).map(|e| e.std)),
-        ]);
+        ];
+        table = table.row(cells.into_iter().skip(first));
     }
     table
 }

@@ -18,14 +18,14 @@ use crate::record::{Campaign, Tip};
 use crate::replay::Parameter;
 
 /// The model that the slip phases' estimates make, where they explain all: a rigid axis without
-/// tips, or one tip that follows one mode.
+/// tips and without a mode, or one tip that follows one mode.
 pub(crate) fn estimates_model(
     campaign: &Campaign,
     motor: Option<(&MotorRegression, &DriveEstimates, &Terms)>,
     beam: Option<&BeamRegression>,
 ) -> Option<(MotorFit, Option<BeamFit>)> {
     let (regression, drive, terms) =
-        motor.filter(|(m, ..)| m.relative_residual < MODEL_EXPLAINED)?;
+        motor.filter(|(m, ..)| m.relative_residual < MODEL_EXPLAINED && m.mode.is_none())?;
     let (inertia, viscous) = (drive.inertia?, drive.friction.viscous?);
     let through = match (campaign.channels.tips.len(), beam) {
         (0, _) => None,

@@ -1,5 +1,7 @@
 //! Estimates of friction, drive and beam from the identified arm.
 
+use std::f64::consts::TAU;
+
 use crate::identify::drive_estimates::DriveEstimates;
 use crate::identify::estimate::{Estimate, ModeEstimate};
 use crate::identify::friction_estimates::Friction;
@@ -112,9 +114,19 @@ impl OutputError {
     /// Whether the arm is accepted. If whole runs are replayed, its residual may be at most a few times the
     /// sensors' noise; if shorter windows are replayed, it must be about that noise. If the regression's
     /// equation lacks a term, the limit of whole runs also holds for shorter windows, because the regression's
-    /// estimates would be less accurate.
+    /// estimates would be less accurate. Shorter windows must contain a period of each mode.
     pub fn stands(&self) -> bool {
-        self.beyond_noise < self.accepted_residual && is_sound(&self.arm, &self.covariance)
+        self.beyond_noise < self.accepted_residual
+            && is_sound(&self.arm, &self.covariance)
+            && (self.whole_runs || self.sees_its_modes())
+    }
+
+    /// Whether the windows contain a period of each mode: each window has an initial state of its own, and over less than a
+    /// period another frequency with another initial state gives nearly the same motion.
+    fn sees_its_modes(&self) -> bool {
+        let window_s = self.stages.last().map_or(0.0, |stage| stage.window_s);
+        let modes = self.arm.clamped_modes();
+        modes.iter().all(|(omega_rad_s, _)| omega_rad_s * window_s > TAU)
     }
 
     /// The same beside the regression: over short windows more is accepted where its equation lacks a term, and nothing where
