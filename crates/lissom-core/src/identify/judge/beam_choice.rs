@@ -8,7 +8,7 @@ use crate::identify::judge::evidence::Evidence;
 use crate::identify::judge::thresholds::MODEL_MISFIT;
 use crate::identify::judge::thresholds::TIPS_COMPLETE;
 use crate::identify::methods::output_error::OutputError;
-use crate::identify::methods::regression::{BeamRegression, MotorRegression};
+use crate::identify::methods::regression::BeamRegression;
 use crate::identify::prepare::run_analysis::RunKind;
 
 /// Whether the beam's equations on the measured tips explain their motion.
@@ -78,10 +78,9 @@ pub(super) fn findings(evidence: &Evidence<'_>, beam: &BeamEstimates) -> Vec<Fin
         found.push(Finding::new(BeamFinding::ModesNotFound));
     }
     let model = evidence.methods.motor_model.as_ref();
-    // Noise and friction that varies bend the response, too: slip phases tell.
-    let rigid = |r: &MotorRegression| r.mode.is_none();
+    // Noise and friction that varies bend the response, too: slip phases tell, and count a mode.
     if tips == 0
-        && !evidence.methods.regression.as_ref().is_some_and(rigid)
+        && evidence.methods.regression.is_none()
         && let Some(model) = model.filter(|m| m.weighted_rms < MODEL_MISFIT)
         && let Some(pole) = model.poles.first()
     {
