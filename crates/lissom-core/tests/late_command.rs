@@ -124,7 +124,7 @@ fn a_lag_of_samples_is_no_law_of_friction() {
     let step = TAU / 4096.0;
     let encoder = |angle: f64| step * (angle / step).round();
     for (late, load_nm) in [(2, 0.02), (3, 0.0)] {
-        let drive = Drive { late, load_nm, ..SLOW };
+        let drive = Drive { load_nm, late, ..SLOW };
         let sine = |(w, a): (f64, f64)| {
             let goal = move |t: f64| [a * (w * t).sin(), a * w * (w * t).cos()];
             drive.run(&format!("{w}"), 10_000, goal, encoder)
