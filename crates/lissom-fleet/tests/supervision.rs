@@ -161,7 +161,8 @@ fn a_killed_run_loses_at_most_what_the_manifest_does_not_list() {
 fn a_folder_that_cannot_be_written_stops_the_run_and_loses_no_row() {
     let folder = tempfile::tempdir().unwrap();
     let program = worker(folder.path(), VERSION);
-    let (out, aside, logs) = (folder.path().join("out"), folder.path().join("aside"), many(200));
+    // More than are done before the progress is shown first.
+    let (out, aside, logs) = (folder.path().join("out"), folder.path().join("aside"), many(1000));
     let run = FleetRun::begin(&out, settings(), logs.clone(), &ExistingRows::Keep).unwrap();
     let mut gone = false;
     let stopped = run_here(run, NonZeroUsize::MIN, &program, &AtomicBool::new(false), |progress| {

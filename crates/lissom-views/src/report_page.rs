@@ -7,8 +7,8 @@ use lissom::record::Campaign;
 use lissom_io::result::{FindingEntry, SeverityName};
 use lissom_io::{ResultFile, UnitNames};
 use lissom_report::{
-    Finding as ReportFinding, KeyFigure, Page, Severity as ReportSeverity, significant,
-    with_uncertainty,
+    BodePlot, Finding as ReportFinding, KeyFigure, Page, Role, Severity as ReportSeverity,
+    significant, with_uncertainty,
 };
 
 use crate::digits::counted;
@@ -28,7 +28,8 @@ use crate::{
 /// Most parameters in the summary.
 const MAIN_PARAMETERS: usize = 6;
 /// Why the line of a model has no band.
-const NO_BAND: &str = " It has no band: the data do not tell the errors of all its coefficients.";
+const NO_BAND: &str =
+    " No band: the data do not determine the standard errors of all coefficients.";
 /// Most findings in the summary.
 const MAIN_FINDINGS: usize = 3;
 
@@ -186,17 +187,18 @@ fn motion_section(
     )
 }
 
-/// What to know of the bands of the models.
-fn of_band(result: &ResultFile) -> String {
-    let models = &result.models;
+/// What to know of the band of a plot's model.
+fn of_band(plot: &BodePlot, result: &ResultFile) -> String {
     let doubted_by = result.verdict.as_ref().map_or(&[][..], |verdict| &verdict.doubted_by);
-    match (&models.motor, &models.motor_covariance) {
-        (None, _) => String::new(),
-        (Some(_), None) => NO_BAND.to_owned(),
-        (Some(_), Some(_)) if doubted_by.is_empty() => String::new(),
-        (Some(_), Some(_)) => {
-            format!(" Its band does not count what the model lacks ({}).", doubted_by.join(", "))
-        }
+    let Some(model) = plot.series.iter().find(|series| series.role == Role::Fitted) else {
+        return String::new();
+    };
+    if model.band.is_none() {
+        NO_BAND.to_owned()
+    } else if doubted_by.is_empty() {
+        String::new()
+    } else {
+        format!(" The band does not count what the model lacks ({}).", doubted_by.join(", "))
     }
 }
 
@@ -211,8 +213,8 @@ fn response_section(
     if !bode.is_empty() {
         page = page.heading("Frequency responses");
     }
-    let of_band = of_band(result);
     for (_, plot) in &bode {
+        let of_band = of_band(plot, result);
         page = page.figure(
             plot,
             &format!(
@@ -262,9 +264,13 @@ fn in_words(result: &ResultFile, rows: &[ParameterRow]) -> String {
 }
 
 /// The findings to know first, in the order of the result, which has causes before what follows from them; those that
-/// affect none of `rows` last. Infos, of the rows alone, only where there is nothing else.
+/// affect none of `rows` last. The first refusal always has a place. Infos, of the rows alone, only where there is nothing
+/// else.
 fn main_findings(findings: &[ReportFinding], rows: &[ParameterRow]) -> Vec<ReportFinding> {
-    let of_rows = |f: &ReportFinding| rows.iter().any(|row| f.affects.iter().any(|a| a == row.key));
+    // What names no estimate is about all.
+    let of_rows = |f: &ReportFinding| {
+        f.affects.is_empty() || rows.iter().any(|row| f.affects.iter().any(|a| a == row.key))
+    };
     let is_info = |f: &&ReportFinding| f.severity == ReportSeverity::Info;
     let mut main: Vec<&ReportFinding> = findings.iter().filter(|f| !is_info(f)).collect();
     if main.is_empty() {
@@ -272,8 +278,12 @@ fn main_findings(findings: &[ReportFinding], rows: &[ParameterRow]) -> Vec<Repor
     }
     main.sort_by_key(|f| !of_rows(f));
     let mut codes = HashSet::new();
-    let each_once = main.into_iter().filter(|f| codes.insert(&f.code));
-    each_once.take(MAIN_FINDINGS).cloned().collect()
+    main.retain(|f| codes.insert(&f.code));
+    let refused = main.iter().position(|f| f.severity == ReportSeverity::Refusal);
+    if let Some(refusal) = refused.filter(|at| *at >= MAIN_FINDINGS) {
+        main.swap(refusal, MAIN_FINDINGS - 1);
+    }
+    main.into_iter().take(MAIN_FINDINGS).cloned().collect()
 }
 
 fn key_figures(
@@ -337,4 +347,41 @@ fn finding(f: &FindingEntry, hint: Option<&str>) -> ReportFinding {
     let hints: Vec<&str> = [f.hint.as_str()].into_iter().chain(hint).collect();
     let hint = hints.join("; ");
     if hint.is_empty() { finding } else { finding.hint(hint) }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn row(key: &'static str) -> ParameterRow {
+        ParameterRow { name: key.to_owned(), key, estimate: None, unit: String::new(), known: None }
+    }
+
+    fn codes(findings: &[(ReportSeverity, &str, &str)]) -> Vec<String> {
+        let of = |(severity, code, affects): &(ReportSeverity, &str, &str)| {
+            let mut finding = ReportFinding::new(*severity, *code, "");
+            finding.affects = vec![(*affects).to_owned()];
+            finding
+        };
+        let findings: Vec<ReportFinding> = findings.iter().map(of).collect();
+        main_findings(&findings, &[row("inertia")]).into_iter().map(|f| f.code).collect()
+    }
+
+    #[test]
+    fn causes_come_first_and_a_refusal_has_a_place() {
+        use ReportSeverity::{Info, Refusal, Warning};
+        let found = [
+            (Warning, "elsewhere", "curve"),
+            (Warning, "cause", "inertia"),
+            (Warning, "cause", "inertia"),
+            (Warning, "second", "inertia"),
+            (Warning, "third", "inertia"),
+            (Refusal, "refused", "inertia"),
+            (Info, "known", "inertia"),
+        ];
+        assert_eq!(codes(&found), ["cause", "second", "refused"]);
+        assert_eq!(codes(&found[..2]), ["cause", "elsewhere"]);
+        // Infos only where there is nothing else, and of the parameters alone.
+        assert_eq!(codes(&[(Info, "other", "curve"), (Info, "known", "inertia")]), ["known"]);
+    }
 }

@@ -7,7 +7,7 @@ pub fn correlation(covariance: &DMatrix<f64>) -> DMatrix<f64> {
     let n = covariance.nrows();
     DMatrix::from_fn(n, n, |i, j| {
         let sizes = (covariance[(i, i)] * covariance[(j, j)]).sqrt();
-        let is_known = sizes <= 0.0;
-        if is_known { f64::from(i == j) } else { covariance[(i, j)] / sizes }
+        let has_no_variance = sizes <= 0.0;
+        if has_no_variance { f64::from(i == j) } else { covariance[(i, j)] / sizes }
     })
 }

@@ -103,6 +103,8 @@ pub enum OutputErrorFinding {
         noise_ratio: f64,
         /// Whether the estimates over short windows are used; otherwise those of the regression.
         used: bool,
+        /// Length of windows \[s\] over which the arm describes the motion, if they are too short to show a mode.
+        agree_s: Option<f64>,
     },
     /// The output-error method ended before it had finished.
     BudgetSpent {
@@ -126,6 +128,29 @@ impl OutputErrorFinding {
     /// Whether it may be the cause of other findings.
     pub(crate) fn is_cause(&self) -> bool {
         matches!(self, Self::CommandLag { .. } | Self::TipLag { .. } | Self::ModesByTheMotor { .. })
+    }
+}
+
+/// How far the simulated arm follows the log.
+fn departs(
+    window_s: f64,
+    grown_from: Option<(f64, f64)>,
+    noise_ratio: f64,
+    agree_s: Option<f64>,
+) -> String {
+    match (agree_s, grown_from) {
+        (Some(agree_s), _) => format!(
+            "simulation and log agree over {agree_s:.2} s only, less than a period of the slowest mode: this does not \
+             determine its frequency"
+        ),
+        (None, Some((first_s, growth))) => format!(
+            "in simulations over {window_s:.2} s the error of the motion is {growth:.1} times that over {first_s:.2} s: the \
+             model lacks an effect that moves the axis"
+        ),
+        (None, None) => format!(
+            "in simulations over {window_s:.2} s the error of the motion is {noise_ratio:.0} times the sensors' noise, and no \
+             smaller over shorter times: the model lacks an effect that moves the axis, or the fit did not converge"
+        ),
     }
 }
 
@@ -195,20 +220,8 @@ impl fmt::Display for OutputErrorFinding {
                 damper.name(),
                 with_error(*rate_per_s)
             ),
-            Self::ReplayDeparts { window_s, grown_from, noise_ratio, used } => {
-                match grown_from {
-                    Some((first_s, growth)) => write!(
-                        f,
-                        "in simulations over {window_s:.2} s the error of the motion is {growth:.1} times that over \
-                         {first_s:.2} s: the model lacks an effect that moves the axis"
-                    )?,
-                    None => write!(
-                        f,
-                        "in simulations over {window_s:.2} s the error of the motion is {noise_ratio:.0} times the \
-                         sensors' noise, and no smaller over shorter times: the model lacks an effect that moves the axis, or \
-                         the fit did not converge"
-                    )?,
-                }
+            Self::ReplayDeparts { window_s, grown_from, noise_ratio, used, agree_s } => {
+                f.write_str(&departs(*window_s, *grown_from, *noise_ratio, *agree_s))?;
                 f.write_str(if *used {
                     ". The estimates come from the longest time over which simulation and log agree"
                 } else {

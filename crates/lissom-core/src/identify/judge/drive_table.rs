@@ -117,10 +117,7 @@ fn of_response(evidence: &Evidence<'_>, model: &MotorFit) -> DriveEstimates {
 fn of_model(evidence: &Evidence<'_>, model: &MotorFit, friction: Friction) -> DriveEstimates {
     let back_emf = evidence.campaign.channels.command.back_emf_viscous;
     let viscous = Estimate { value: model.viscous.value - back_emf, std: model.viscous.std };
-    let coupling = (!model.coupling.is_empty()).then(|| Estimate {
-        value: model.coupling.iter().map(|e| e.value).sum(),
-        std: model.coupling.iter().map(|e| e.std * e.std).sum::<f64>().sqrt(),
-    });
+    let coupling = (!model.coupling.is_empty()).then(|| model.total_coupling());
     DriveEstimates {
         friction: Friction { viscous: Some(viscous), viscous_by_direction: None, ..friction },
         inertia: Some(model.inertia),

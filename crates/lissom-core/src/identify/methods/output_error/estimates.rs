@@ -1,7 +1,5 @@
 //! Estimates of friction, drive and beam from the identified arm.
 
-use std::f64::consts::TAU;
-
 use crate::identify::drive_estimates::DriveEstimates;
 use crate::identify::estimate::{Estimate, ModeEstimate};
 use crate::identify::friction_estimates::Friction;
@@ -9,7 +7,7 @@ use crate::identify::gravity_estimate::Gravity;
 use crate::identify::methods::friction_law::LawTerm;
 use crate::identify::methods::output_error::found::OutputError;
 use crate::identify::methods::output_error::model::describes::{
-    accepted_residual, is_left, is_sound,
+    accepted_residual, is_left, is_sound, sees_modes,
 };
 use crate::record::{Channels, TipQuantity};
 use crate::replay::{DryTerms, FrictionNumber, ModalArm, Parameter};
@@ -118,15 +116,13 @@ impl OutputError {
     pub fn stands(&self) -> bool {
         self.beyond_noise < self.accepted_residual
             && is_sound(&self.arm, &self.covariance)
-            && (self.whole_runs || self.sees_its_modes())
+            && self.sees_its_modes()
     }
 
-    /// Whether the windows contain a period of each mode: each window has an initial state of its own, and over less than a
-    /// period another frequency with another initial state gives nearly the same motion.
-    fn sees_its_modes(&self) -> bool {
+    /// Whether the windows are whole runs, or contain a period of each mode.
+    pub(crate) fn sees_its_modes(&self) -> bool {
         let window_s = self.stages.last().map_or(0.0, |stage| stage.window_s);
-        let modes = self.arm.clamped_modes();
-        modes.iter().all(|(omega_rad_s, _)| omega_rad_s * window_s > TAU)
+        self.whole_runs || sees_modes(&self.arm, window_s)
     }
 
     /// The same beside the regression: over short windows more is accepted where its equation lacks a term, and nothing where

@@ -11,13 +11,13 @@ use crate::identify::methods::output_error::engine::data::Masks;
 use crate::identify::methods::output_error::engine::windows::widen as widened;
 use crate::identify::methods::output_error::found::OutputErrorStart;
 use crate::identify::methods::output_error::model::describes::{
-    accepted_residual, is_left, is_sound,
+    accepted_residual, is_left, is_sound, sees_modes,
 };
 use crate::identify::methods::output_error::model::fit::{ArmFit, Report};
 use crate::identify::methods::output_error::model::fitting::{Fitting, some};
 use crate::identify::methods::output_error::model::left_over::left_over;
 use crate::identify::methods::output_error::moves::dampers::{dampers_at_points, drop_dampers};
-use crate::identify::methods::output_error::moves::extend::{drop_tip_lags, extend};
+use crate::identify::methods::output_error::moves::extend::{drop_lags, extend};
 use crate::identify::methods::output_error::moves::modes;
 use crate::identify::methods::output_error::moves::rigid_points::tighten;
 use crate::identify::methods::output_error::thresholds::{
@@ -210,7 +210,7 @@ fn settle(fitting: &Fitting<'_>, fit: &mut ArmFit, report: &mut Report) {
         make(tighten, fitting, fit, report);
         make(widen, fitting, fit, report);
     }
-    make(drop_tip_lags, fitting, fit, report);
+    make(drop_lags, fitting, fit, report);
 }
 
 /// Repeats the search with slower widening, if it may have ended in a wrong minimum: the residual is above the noise,
@@ -241,6 +241,7 @@ impl Attempt {
         let covariance = fitting.covariances(&self.fit).larger();
         is_sound(&self.fit.body.arm, &covariance)
             && fitting.beyond_noise(&self.fit) < accepted_residual(self.fit.whole_runs)
+            && (self.fit.whole_runs || sees_modes(&self.fit.body.arm, self.fit.window_s))
     }
 
     /// Whether another is better over the same samples.

@@ -49,7 +49,7 @@ pub(crate) fn fit_at_once(
         motor,
         modes: &start.mode_poles,
         tips_weight: 1.0 / part_error(start.weighted_rms),
-        motor_weight: 1.0 / part_error(alone.weighted_rms()),
+        motor_weight: 1.0 / part_error(alone.weighted_rms(0)),
         fastest_rad_s: motor.omega_rad_s.iter().copied().fold(0.0, f64::max),
         x: DVector::from_iterator(
             2 * poles,
@@ -61,7 +61,7 @@ pub(crate) fn fit_at_once(
     let delayed = JointProblem { x: problem.x.push(0.0), ..problem.clone() };
     let delayed = minimal(delayed);
     if delayed.information()? + CRITERION_CALLED_FOR < problem.information()? {
-        let left = delayed.linear()?.motor.weighted_rms();
+        let left = delayed.linear()?.motor.weighted_rms(0);
         problem = minimal(JointProblem { motor_weight: 1.0 / part_error(left), ..delayed });
     }
     problem.finished(tips, start)

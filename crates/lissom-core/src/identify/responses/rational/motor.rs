@@ -5,12 +5,13 @@ use num_complex::Complex64;
 
 use crate::identify::estimate::{Estimate, ModeEstimate};
 use crate::identify::responses::correct::Response;
-use crate::identify::responses::rational::fit_covariance::{joined, of_coefficients};
+use crate::identify::responses::rational::fit_covariance::{
+    joined, of_coefficients, pole_covariance,
+};
 use crate::identify::responses::rational::{
     Pole, common_denominator, information, others, part_error, trial_frequencies,
 };
 use crate::identify::responses::thresholds::RESPONSE_FLOOR;
-use crate::information::{Inverse, inverted};
 use crate::lti::{CoefficientCovariance, TransferFunction, add, multiply};
 use crate::record::Command;
 
@@ -221,6 +222,13 @@ impl MotorFit {
         }
     }
 
+    /// Σc_k, with the covariance of the c_k.
+    pub(crate) fn total_coupling(&self) -> Estimate {
+        let own = self.covariance.view((2, 2), (self.coupling.len(), self.coupling.len()));
+        let value = self.coupling.iter().map(|c| c.value).sum();
+        Estimate { value, std: own.sum().max(0.0).sqrt() }
+    }
+
     /// Covariance of the coefficients of the transfer function and of the delay.
     pub(crate) fn coefficient_covariance(&self) -> Option<CoefficientCovariance> {
         let (modes, first) = (self.poles.len(), 2 + self.poles.len());
@@ -353,9 +361,9 @@ impl Solution {
         self.left.norm_squared()
     }
 
-    /// Root mean square of the residuals, the unknowns counted.
-    pub(super) fn weighted_rms(&self) -> f64 {
-        let free = self.left.len().saturating_sub(self.value.len()).max(1) as f64;
+    /// Root mean square of the residuals, the unknowns counted and `further` ones that were fitted.
+    pub(super) fn weighted_rms(&self, further: usize) -> f64 {
+        let free = self.left.len().saturating_sub(self.value.len() + further).max(1) as f64;
         (self.cost() / free).sqrt()
     }
 }
@@ -410,30 +418,15 @@ pub(super) fn finish(
     poles_given: bool,
     s: &Solution,
 ) -> MotorFit {
-    let weighted_rms = s.weighted_rms();
+    // A pole that was fitted has two numbers.
+    let fitted = if poles_given { 0 } else { 2 * poles.len() };
+    let weighted_rms = s.weighted_rms(fitted);
     let known = &s.covariance * part_error(weighted_rms).powi(2);
     let (own, all) = (known.nrows(), known.nrows() + 2 * poles.len() + 1);
     let covariance =
         joined(&known, &DMatrix::zeros(own, all - own), &DMatrix::zeros(all - own, all - own));
     let fit = MotorFit::of_values(&s.value, &covariance, poles.to_vec(), data.torque_per_command);
     MotorFit { poles_given, weighted_rms, ..fit }
-}
-
-/// Covariance of ω \[rad/s\] and ζ of the one pole that was fitted; `None` if the response does not tell them.
-fn pole_covariance(data: &MotorData, pole: Pole, weighted_rms: f64) -> Option<DMatrix<f64>> {
-    let left = |by_omega: f64, by_damping: f64| {
-        let pole = Pole {
-            omega_rad_s: pole.omega_rad_s * (1.0 + by_omega),
-            damping_ratio: pole.damping_ratio + by_damping,
-        };
-        Some(solve(data, &[pole])?.left)
-    };
-    let by_omega = (left(STEP, 0.0)? - left(-STEP, 0.0)?) / (2.0 * STEP * pole.omega_rad_s);
-    let by_damping = (left(0.0, STEP)? - left(0.0, -STEP)?) / (2.0 * STEP);
-    let jacobian = DMatrix::from_columns(&[by_omega, by_damping]);
-    let Inverse { matrix, lost } = inverted(&jacobian.tr_mul(&jacobian));
-    let told = lost.iter().all(|lost| !lost) && matrix.iter().all(|v| v.is_finite());
-    told.then(|| matrix * part_error(weighted_rms).powi(2))
 }
 
 #[cfg(test)]

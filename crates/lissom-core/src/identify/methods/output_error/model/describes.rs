@@ -1,5 +1,7 @@
 //! Whether an arm describes the runs.
 
+use std::f64::consts::TAU;
+
 use nalgebra::DMatrix;
 
 use crate::identify::methods::output_error::thresholds::{
@@ -21,6 +23,12 @@ pub(crate) fn most(shares: &[f64]) -> f64 {
 /// shorter windows are.
 pub(crate) fn accepted_residual(whole_runs: bool) -> f64 {
     if whole_runs { RESIDUAL_FAR_ABOVE_NOISE } else { RESIDUAL_AT_NOISE }
+}
+
+/// Whether windows of this length contain a period of each mode: each has an initial state of its own, and over less than a
+/// period another frequency with another initial state gives nearly the same motion.
+pub(crate) fn sees_modes(arm: &ModalArm, window_s: f64) -> bool {
+    arm.clamped_modes().iter().all(|(omega_rad_s, _)| omega_rad_s * window_s > TAU)
 }
 
 /// Whether an arm is possible, and its standard errors are known.

@@ -64,11 +64,11 @@ fn add_to_law(fitting: &Fitting<'_>, fit: &mut ArmFit, report: &mut Report, leas
     better
 }
 
-/// Removes lags of tips that are not significant: a lag may have been significant only before the arm was found.
-pub(crate) fn drop_tip_lags(fitting: &Fitting<'_>, fit: &mut ArmFit, report: &mut Report) {
+/// Removes lags that are not significant: a lag may have been significant only before the arm was found.
+pub(crate) fn drop_lags(fitting: &Fitting<'_>, fit: &mut ArmFit, report: &mut Report) {
     let covariance = fitting.covariances(fit).larger();
     let is_nothing = |(i, p): (usize, &Parameter)| {
-        let lag = matches!(p, Parameter::TipLag(_));
+        let lag = matches!(p, Parameter::TipLag(_) | Parameter::CommandLag);
         let stands = p.of(&fit.body.arm).abs() > CLEARLY_PRESENT * standard_error(&covariance, i);
         (lag && !stands).then_some(*p)
     };
