@@ -2,15 +2,10 @@
 
 use nalgebra::{DMatrix, DVector};
 
-use crate::identify::responses::rational::motor::{MotorData, solve};
-use crate::identify::responses::rational::{Pole, part_error};
-use crate::information::{Inverse, inverted};
 use crate::lti::{CoefficientCovariance, TransferFunction};
 
 /// Share of the standard error of an unknown over which slopes are taken to either side.
 const STEP: f64 = 0.01;
-/// Share of a pole over which slopes are taken to either side.
-const POLE_STEP: f64 = 1e-6;
 
 /// Covariance of unknowns y, then of x on which they depend: `known` is that of y where x is known, `slopes` is ∂y/∂x,
 /// `others` the covariance of x.
@@ -58,28 +53,6 @@ pub(super) fn of_coefficients(
     let slopes = DMatrix::from_columns(&columns);
     let matrix = &slopes * covariance * slopes.transpose();
     matrix.iter().all(|v| v.is_finite()).then_some(CoefficientCovariance { matrix })
-}
-
-/// Covariance of ω \[rad/s\] and ζ of the one pole that was fitted; `None` if the response does not tell them.
-pub(super) fn pole_covariance(
-    data: &MotorData,
-    pole: Pole,
-    weighted_rms: f64,
-) -> Option<DMatrix<f64>> {
-    let left = |by_omega: f64, by_damping: f64| {
-        let pole = Pole {
-            omega_rad_s: pole.omega_rad_s * (1.0 + by_omega),
-            damping_ratio: pole.damping_ratio + by_damping,
-        };
-        Some(solve(data, &[pole])?.left)
-    };
-    let by_omega =
-        (left(POLE_STEP, 0.0)? - left(-POLE_STEP, 0.0)?) / (2.0 * POLE_STEP * pole.omega_rad_s);
-    let by_damping = (left(0.0, POLE_STEP)? - left(0.0, -POLE_STEP)?) / (2.0 * POLE_STEP);
-    let jacobian = DMatrix::from_columns(&[by_omega, by_damping]);
-    let Inverse { matrix, lost } = inverted(&jacobian.tr_mul(&jacobian));
-    let told = lost.iter().all(|lost| !lost) && matrix.iter().all(|v| v.is_finite());
-    told.then(|| matrix * part_error(weighted_rms).powi(2))
 }
 
 #[cfg(test)]

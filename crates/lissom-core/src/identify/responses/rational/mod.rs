@@ -7,6 +7,8 @@ mod coupling;
 mod evidence;
 mod fit_covariance;
 mod motor;
+#[cfg(test)]
+mod motor_tests;
 mod origin;
 mod pole_damping;
 mod products;
