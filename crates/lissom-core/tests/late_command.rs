@@ -141,7 +141,7 @@ fn a_lag_of_samples_is_no_law_of_friction() {
     }
 }
 
-/// A search that begins without a lag ends beside it, or in a mode that is not there, with some of these seeds.
+/// A search that starts without a lag misses it with some of these seeds.
 #[test]
 fn a_lag_of_samples_under_noise_is_no_mode() {
     let drive = Drive {

@@ -1,4 +1,4 @@
-//! Ordinary least squares with Coulomb friction and one viscous coefficient, beside a result with another friction law.
+//! Ordinary least squares with Coulomb friction and one viscous coefficient, for a result with another friction law.
 
 use lissom_io::result::finding_keys::{COULOMB, GRAVITY, INERTIA, OFFSET, VISCOUS};
 use lissom_io::result::{EstimateEntry, LeastSquaresEntry, MethodName};

@@ -45,8 +45,7 @@ fn modes_and_notches_at_once() {
     assert!((0.002..0.005).contains(&value) && value > 5.0 * std, "{value} ± {std}");
 }
 
-/// Over windows shorter than a period of the first mode, which is as far as simulation and log agree, another frequency
-/// fits as well: 12.5 rad/s.
+/// Simulation and log agree only over windows shorter than a period of the first mode, which do not determine its frequency.
 #[test]
 fn sweeps_of_two_amplitudes_give_the_same_modes() {
     let Some(data) = common::data("krauss-slfr") else { return };

@@ -78,7 +78,7 @@ pub(super) fn findings(evidence: &Evidence<'_>, beam: &BeamEstimates) -> Vec<Fin
         found.push(Finding::new(BeamFinding::ModesNotFound));
     }
     let model = evidence.methods.motor_model.as_ref();
-    // Noise and friction that varies bend the response, too: slip phases tell, and count a mode.
+    // Noise and varying friction bend the response as well; the regression finds a mode itself.
     if tips == 0
         && evidence.methods.regression.is_none()
         && let Some(model) = model.filter(|m| m.weighted_rms < MODEL_MISFIT)

@@ -26,7 +26,7 @@ pub(crate) fn starting_arms(
     let drive = motor.estimates();
     let mut arms = arms(usable, &drive, beam, tips, shown, corrected);
     arms.extend(motor.mode.and_then(|mode| flexible(usable, &drive, mode)));
-    // A search from no delay may end beside one of several samples.
+    // A search that starts without a delay may miss one of several samples.
     let lag_s = motor.delay_lag().map_or(0.0, |lag| lag.time_s);
     // With less viscous friction than none a replay runs away.
     for arm in &mut arms {

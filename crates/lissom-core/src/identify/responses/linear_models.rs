@@ -31,7 +31,7 @@ pub struct TipModel {
     /// Delay of the tip's readings relative to the motor's \[s\], not part of `function`;
     /// `None` if it is not estimated.
     pub delay_s: Option<f64>,
-    /// Covariance of the coefficients and of the delay; `None` if the data do not tell it.
+    /// Covariance of the coefficients and of the delay; `None` if the data do not determine it.
     pub covariance: Option<CoefficientCovariance>,
 }
 
@@ -44,7 +44,7 @@ pub struct LinearModels {
     pub motor: Option<TransferFunction>,
     /// Delay of the command \[s\], not part of `motor`; `None` if the data do not show one.
     pub motor_delay: Option<Estimate>,
-    /// Covariance of the coefficients of `motor` and of `motor_delay`; `None` if the data do not tell it.
+    /// Covariance of the coefficients of `motor` and of `motor_delay`; `None` if the data do not determine it.
     pub motor_covariance: Option<CoefficientCovariance>,
     /// One model for each tip, in order; empty if there is no model of the beam.
     pub tips: Vec<TipModel>,

@@ -1,6 +1,6 @@
 //! Linear models from estimates or from fitted responses.
 
-use nalgebra::DVector;
+use nalgebra::DMatrix;
 
 use crate::identify::drive_estimates::DriveEstimates;
 use crate::identify::estimate::Estimate;
@@ -13,9 +13,7 @@ use crate::identify::responses::rational::{
 use crate::identify::responses::response_point::ResponsePoint;
 use crate::identify::responses::response_table::tip_model;
 use crate::identify::responses::thresholds::MODEL_EXPLAINED;
-use crate::information::correlation;
 use crate::record::{Campaign, Tip};
-use crate::replay::Parameter;
 
 /// The model that the slip phases' estimates make, where they explain all: a rigid axis without
 /// tips and without a mode, or one tip that follows one mode.
@@ -52,10 +50,9 @@ pub(crate) fn rigid_model(campaign: &Campaign, replay: &OutputError) -> Option<M
     }
     let command = &campaign.channels.command;
     let viscous = replay.friction(command.back_emf_viscous).viscous?;
-    let covariance = replay.covariance_of(|arm| {
-        DVector::from_vec(vec![Parameter::Inertia.of(arm), Parameter::Viscous.of(arm)])
-    })?;
-    MotorFit::of_estimates(&[replay.inertia()?, viscous], &correlation(&covariance), None, command)
+    // Without correlation: the linear models of an accepted arm have its own covariance.
+    let drive = [replay.inertia()?, viscous];
+    MotorFit::of_estimates(&drive, &DMatrix::identity(2, 2), None, command)
 }
 
 /// The beam's modes from its tips' responses to the motor.

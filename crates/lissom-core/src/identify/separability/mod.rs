@@ -30,7 +30,7 @@ use crate::record::Campaign;
 pub struct ParameterCertainty {
     /// Which.
     pub parameter: ArmParameter,
-    /// Whether its estimate is given; a refused one may be as uncertain as it says, or wrong.
+    /// Whether its estimate is given; the standard error of a refused one is that of the rejected value.
     pub given: bool,
     /// Its standard error; infinite where the logs do not tell it from others.
     pub std: f64,

@@ -175,7 +175,7 @@ impl JointProblem<'_> {
         let places: Vec<usize> =
             self.modes.iter().flat_map(|&k| [2 * k, 2 * k + 1]).chain([delay]).collect();
         let n = places.len();
-        // Nothing stands for a delay that is not there.
+        // Without a delay its row and column are zero.
         let others = (&units * covariance * &units).resize(delay + 1, delay + 1, 0.0);
         let others = DMatrix::from_fn(n, n, |i, k| others[(places[i], places[k])]);
         let by_unit =

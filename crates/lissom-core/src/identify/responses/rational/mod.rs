@@ -2,6 +2,8 @@
 
 mod at_once;
 mod beam;
+#[cfg(test)]
+mod beam_tests;
 mod columns;
 mod coupling;
 mod evidence;
@@ -67,9 +69,10 @@ impl Pole {
     }
 }
 
-/// Standard error of the real and of the imaginary part of a response, in its own standard error, after a fit that left
-/// `weighted_rms` of it: weights may be wrong by a factor, which what is left sets, but never below what they claim,
-/// which is `1/√2` of it for either part.
+/// Standard error of the real and of the imaginary part of a response, relative to the standard error of the response.
+///
+/// It is the root mean square of the weighted residuals, `weighted_rms`, but at least 1/√2, which follows from the standard
+/// error of the response alone.
 pub(crate) fn part_error(weighted_rms: f64) -> f64 {
     weighted_rms.max(std::f64::consts::FRAC_1_SQRT_2)
 }

@@ -169,7 +169,7 @@ impl MotorFit {
     }
 
     /// The same with the errors of the poles counted: `of_poles` is the covariance of ω_k \[rad/s\] and ζ_k of each. If
-    /// that is unknown, or `data` have no solution beside the poles, so is that of the transfer function.
+    /// that is unknown, or the fit to `data` has no solution near the poles, so is that of the transfer function.
     pub(crate) fn with_poles_of(&self, data: &MotorData, of_poles: Option<&DMatrix<f64>>) -> Self {
         let counted = of_poles.and_then(|own| Some((own, self.slopes_by_poles(data)?)));
         let (first, n) = (2 + self.poles.len(), 2 * self.poles.len());
@@ -421,9 +421,8 @@ pub(super) fn finish(
     let fitted = if poles_given { 0 } else { 2 * poles.len() };
     let weighted_rms = s.weighted_rms(fitted);
     let known = &s.covariance * part_error(weighted_rms).powi(2);
-    let (own, all) = (known.nrows(), known.nrows() + 2 * poles.len() + 1);
-    let covariance =
-        joined(&known, &DMatrix::zeros(own, all - own), &DMatrix::zeros(all - own, all - own));
+    let all = known.nrows() + 2 * poles.len() + 1;
+    let covariance = known.resize(all, all, 0.0);
     let fit = MotorFit::of_values(&s.value, &covariance, poles.to_vec(), data.torque_per_command);
     MotorFit { poles_given, weighted_rms, ..fit }
 }
