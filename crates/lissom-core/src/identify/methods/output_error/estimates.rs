@@ -7,7 +7,7 @@ use crate::identify::gravity_estimate::Gravity;
 use crate::identify::methods::friction_law::LawTerm;
 use crate::identify::methods::output_error::found::OutputError;
 use crate::identify::methods::output_error::model::describes::{
-    accepted_residual, is_left, is_sound, sees_modes,
+    accepted_residual, is_left, is_sound,
 };
 use crate::record::{Channels, TipQuantity};
 use crate::replay::{DryTerms, FrictionNumber, ModalArm, Parameter};
@@ -112,17 +112,11 @@ impl OutputError {
     /// Whether the arm is accepted. If whole runs are replayed, its residual may be at most a few times the
     /// sensors' noise; if shorter windows are replayed, it must be about that noise. If the regression's
     /// equation lacks a term, the limit of whole runs also holds for shorter windows, because the regression's
-    /// estimates would be less accurate. Shorter windows must contain a period of each mode.
+    /// estimates would be less accurate. Shorter windows must contain a period of each mode, unless sensors measure the position of each.
     pub fn stands(&self) -> bool {
         self.beyond_noise < self.accepted_residual
             && is_sound(&self.arm, &self.covariance)
-            && self.sees_its_modes()
-    }
-
-    /// Whether the windows are whole runs, or contain a period of each mode.
-    pub(crate) fn sees_its_modes(&self) -> bool {
-        let window_s = self.stages.last().map_or(0.0, |stage| stage.window_s);
-        self.whole_runs || sees_modes(&self.arm, window_s)
+            && self.sees_modes
     }
 
     /// The same beside the regression: over short windows more is accepted where its equation lacks a term, and nothing where

@@ -66,6 +66,8 @@ pub struct OutputError {
     pub beyond_noise: f64,
     /// Largest such ratio up to which the arm is accepted.
     pub(crate) accepted_residual: f64,
+    /// Whether the windows of the last stage are whole runs, or determine each mode.
+    pub(crate) sees_modes: bool,
     /// Share of each channel's squared residual, motor first, that is slower than its sensor's noise.
     pub left_over: Vec<f64>,
 }

@@ -81,7 +81,7 @@ fn departs(evidence: &Evidence<'_>, oe: &OutputError) -> Option<Finding> {
     }
     let (first, last) = (oe.stages.first()?, longest(oe)?);
     let grown = first.residual.iter().zip(&last.residual).map(|(a, b)| b / a).fold(0.0, f64::max);
-    let hides_mode = oe.beyond_noise < oe.accepted_residual && !oe.sees_its_modes();
+    let hides_mode = oe.beyond_noise < oe.accepted_residual && !oe.sees_modes;
     Some(Finding::new(OutputErrorFinding::ReplayDeparts {
         window_s: last.window_s,
         grown_from: (grown > RESIDUAL_GROWN).then_some((first.window_s, grown)),

@@ -48,6 +48,7 @@ pub fn output_error(prepared: &Prepared<'_>, start: &OutputErrorStart) -> Option
     let Attempt { fit, mut report, without_repeats, left } = best(&fitting, start)?;
     let fitting = Fitting { masks: without_repeats.as_deref().unwrap_or(&masks), ..fitting };
     let beyond_noise = fitting.beyond_noise(&fit);
+    let sees_modes = fitting.sees_modes(&fit);
     let undecided = undecided(&fitting, &fit);
     let noise = fit.noise.iter().map(|n| SensorNoise::gaussian(n.deviation())).collect();
     let mut found = fit.covariances(&undecided.sums);
@@ -70,6 +71,7 @@ pub fn output_error(prepared: &Prepared<'_>, start: &OutputErrorStart) -> Option
         parameters,
         beyond_noise,
         accepted_residual: accepted_residual(fit.whole_runs),
+        sees_modes,
         left_over: left,
         stages: report.stages,
         extensions: report.added,

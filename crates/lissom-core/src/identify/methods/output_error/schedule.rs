@@ -11,7 +11,7 @@ use crate::identify::methods::output_error::engine::data::Masks;
 use crate::identify::methods::output_error::engine::windows::widen as widened;
 use crate::identify::methods::output_error::found::OutputErrorStart;
 use crate::identify::methods::output_error::model::describes::{
-    accepted_residual, is_left, is_sound, sees_modes,
+    accepted_residual, is_left, is_sound,
 };
 use crate::identify::methods::output_error::model::fit::{ArmFit, Report};
 use crate::identify::methods::output_error::model::fitting::{Fitting, some};
@@ -241,7 +241,7 @@ impl Attempt {
         let covariance = fitting.covariances(&self.fit).larger();
         is_sound(&self.fit.body.arm, &covariance)
             && fitting.beyond_noise(&self.fit) < accepted_residual(self.fit.whole_runs)
-            && (self.fit.whole_runs || sees_modes(&self.fit.body.arm, self.fit.window_s))
+            && fitting.sees_modes(&self.fit)
     }
 
     /// Whether another is better over the same samples.

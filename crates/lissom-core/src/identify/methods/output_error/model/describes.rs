@@ -7,6 +7,7 @@ use nalgebra::DMatrix;
 use crate::identify::methods::output_error::thresholds::{
     CRITICAL_DAMPING, RESIDUAL_AT_NOISE, RESIDUAL_FAR_ABOVE_NOISE, SLOW_RESIDUAL,
 };
+use crate::record::{Tip, TipQuantity};
 use crate::replay::ModalArm;
 
 /// Whether the slow share of some channel's residual is larger than its sensor's noise explains.
@@ -25,10 +26,13 @@ pub(crate) fn accepted_residual(whole_runs: bool) -> f64 {
     if whole_runs { RESIDUAL_FAR_ABOVE_NOISE } else { RESIDUAL_AT_NOISE }
 }
 
-/// Whether windows of this length contain a period of each mode: each has an initial state of its own, and over less than a
-/// period another frequency with another initial state gives nearly the same motion.
-pub(crate) fn sees_modes(arm: &ModalArm, window_s: f64) -> bool {
-    arm.clamped_modes().iter().all(|(omega_rad_s, _)| omega_rad_s * window_s > TAU)
+/// Whether windows of this length determine the arm's modes: each has an initial state of its own, and over less than a
+/// period another frequency with another initial state gives nearly the same motion. Of as many of the
+/// lowest modes as sensors measure the beam's position, the initial states are known.
+pub(crate) fn sees_modes(arm: &ModalArm, tips: &[Tip], window_s: f64) -> bool {
+    let positions = tips.iter().filter(|tip| tip.quantity != TipQuantity::Acceleration);
+    let modes = arm.clamped_modes();
+    modes.iter().skip(positions.count()).all(|(omega_rad_s, _)| omega_rad_s * window_s > TAU)
 }
 
 /// Whether an arm is possible, and its standard errors are known.

@@ -12,6 +12,7 @@ use crate::identify::methods::output_error::engine::search::{
     ReplayProblem, SearchPoint, Stop, is_possible,
 };
 use crate::identify::methods::output_error::engine::windows::cut;
+use crate::identify::methods::output_error::model::describes::sees_modes;
 use crate::identify::methods::output_error::model::fit::{ArmFit, Report, StageReport};
 use crate::identify::methods::output_error::model::repeats::without_repeats;
 use crate::identify::methods::output_error::thresholds::{
@@ -70,6 +71,11 @@ impl Fitting<'_> {
     /// Largest ratio of a channel's residual to its noise as estimated from the samples alone.
     pub(crate) fn beyond_noise(&self, fit: &ArmFit) -> f64 {
         fit.residual.iter().zip(self.noise).map(|(r, n)| r / n.sigma).fold(0.0, f64::max)
+    }
+
+    /// Whether a fit replays whole runs, or windows that determine its modes.
+    pub(crate) fn sees_modes(&self, fit: &ArmFit) -> bool {
+        fit.whole_runs || sees_modes(&fit.body.arm, &self.campaign.channels.tips, fit.window_s)
     }
 
     /// Replays a fit with derivatives by the parameters `free`, and with sums by blocks.
