@@ -235,6 +235,24 @@ test("a stretch is chosen by zooming and left out; the state survives a reload",
   assert.deepEqual(said, []);
 });
 
+test("the runs of a file become logs, and the file again", async (t) => {
+  const server = await studio(chromium, t);
+  const { page, said } = await server.page();
+  const [names, ...rows] = String(log({})).trimEnd().split("\n");
+  const table = [`trial,${names}`, ...[1, 2, 3].flatMap((trial) => rows.map((row) => `${trial},${row}`))].join("\n");
+  await open(page, { name: "all.csv", mimeType: "text/csv", buffer: Buffer.from(table) });
+  await page.locator("#apart-1").click();
+  await page.locator(".files tbody tr").nth(2).waitFor();
+  const shown = await page.locator(".files .name").allTextContents();
+  assert.deepEqual(shown, ["all.csv::trial=1", "all.csv::trial=2", "all.csv::trial=3"]);
+  await page.locator("fieldset label", { hasText: "all.csv::trial=3" }).click();
+  await page.getByText("2 logs", { exact: true }).waitFor();
+  await page.getByRole("button", { name: "Put runs together" }).click();
+  await page.locator(".files .name", { hasText: /^all\.csv$/ }).waitFor();
+  assert.equal(await page.locator(".files tbody tr").count(), 1);
+  assert.deepEqual(said, []);
+});
+
 test("a page that is behind is told so and changes nothing", async (t) => {
   const server = await studio(chromium, t);
   const first = await server.page();

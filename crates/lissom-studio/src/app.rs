@@ -174,7 +174,7 @@ impl App {
 
     /// A log of the session, read as its setup says.
     pub(crate) fn log(&self, session: &Session, log: &LogEntry) -> Result<Arc<CachedLog>, Problem> {
-        self.cache.log(log.id, &self.path(log)?, &log.name, options(session))
+        self.cache.log(log.id, &log.at(&self.path(log)?), &log.title(), options(session))
     }
 
     /// Refuses a setup with which a log cannot be read that can be read now.
@@ -201,7 +201,7 @@ impl App {
         session: &Session,
         log: &LogEntry,
     ) -> Result<Arc<Inspection>, Problem> {
-        self.cache.inspection(log.id, &self.path(log)?, &log.name, options(session))
+        self.cache.inspection(log.id, &log.at(&self.path(log)?), &log.title(), options(session))
     }
 }
 

@@ -21,7 +21,7 @@ use crate::app::Shared;
 use crate::job::{FirstRow, Job};
 use crate::planning::Planned;
 use crate::problem::Problem;
-use crate::session::{ResultEntry, Session};
+use crate::session::{LogEntry, ResultEntry, Session};
 use crate::state_folder::create_private;
 
 /// Where the logs come from.
@@ -95,7 +95,7 @@ fn logs(app: &Shared, session: &Session) -> Result<Logs, Problem> {
         let confined = campaign.path.is_none();
         return Ok(Logs::Campaign { path: app.path(campaign)?, confined });
     }
-    let files: Vec<PathBuf> = session.used_logs().map(super::session::LogEntry::file).collect();
+    let files: Vec<PathBuf> = session.used_logs().map(LogEntry::address).collect();
     let Some(first) = session.used_logs().next() else {
         return Err(Problem::input("there is no log", Some("add a log first".to_owned())));
     };
@@ -211,7 +211,7 @@ fn name(session: &Session) -> String {
         Some(_) => 0,
         None => session.used_logs().count().saturating_sub(1),
     };
-    let first = first.map_or_else(String::new, |log| log.name.clone());
+    let first = first.map_or_else(String::new, LogEntry::title);
     match more {
         0 => first,
         1 => format!("{first} and one more"),

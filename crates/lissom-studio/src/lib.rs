@@ -28,6 +28,7 @@ mod opener;
 mod planning;
 mod problem;
 mod routes;
+mod runs;
 mod said;
 mod sample;
 mod session;

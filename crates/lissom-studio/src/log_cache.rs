@@ -4,7 +4,8 @@ use std::path::{Path, PathBuf};
 use std::sync::{Arc, Mutex, OnceLock, PoisonError};
 
 use lissom_formats::{LogData, ReadOptions};
-use lissom_io::inspect::{Inspection, inspect_with};
+use lissom_io::inspect::{Inspection, inspect_content};
+use lissom_io::log::{LastFile, LogPath};
 
 use crate::problem::Problem;
 use crate::thinned::{Abscissa, Extremes, Points, thinned};
@@ -35,6 +36,8 @@ struct Key {
 pub(crate) struct LogCache {
     inspections: Mutex<Vec<(Key, Arc<Inspection>)>>,
     logs: Mutex<Vec<(Key, Arc<CachedLog>)>>,
+    /// The file that was read last of those with several logs.
+    last: Mutex<LastFile>,
 }
 
 impl LogCache {
@@ -55,7 +58,7 @@ impl LogCache {
             return Ok(log);
         }
         drop(logs);
-        let log = Arc::new(CachedLog::read(path, name, &options)?);
+        let log = Arc::new(self.read(path, name, options)?);
         let mut known = self.inspections.lock().unwrap_or_else(PoisonError::into_inner);
         known.retain(|(known, _)| known.id != id);
         known.push((key, Arc::clone(&log.inspection)));
@@ -96,12 +99,14 @@ impl LogCache {
         drop(known);
         let mut logs = self.logs.lock().unwrap_or_else(PoisonError::into_inner);
         logs.retain(|(known, _)| known.id != id);
+        drop(logs);
+        *self.last.lock().unwrap_or_else(PoisonError::into_inner) = LastFile::default();
     }
-}
 
-impl CachedLog {
-    fn read(path: &Path, name: &str, options: &ReadOptions) -> Result<Self, Problem> {
-        let mut inspection = inspect_with(path, options).map_err(|error| {
+    fn read(&self, path: &Path, name: &str, options: ReadOptions) -> Result<CachedLog, Problem> {
+        let inspected =
+            self.content(path, options).and_then(|content| inspect_content(path, content));
+        let mut inspection = inspected.map_err(|error| {
             // People know a log by its name, not by its place in the folder of the state.
             match path.parent() {
                 Some(folder) => Problem::from(error).without_folder(folder),
@@ -109,12 +114,35 @@ impl CachedLog {
             }
         })?;
         inspection.file = PathBuf::from(name);
+        Ok(CachedLog::of(inspection))
+    }
+
+    /// The content of the file of a log. One with several logs is read once for all of them.
+    fn content(&self, path: &Path, options: ReadOptions) -> Result<Arc<LogData>, lissom_io::Error> {
+        let path = LogPath::of(path);
+        if path.group.is_none() {
+            return Ok(path.read(&options)?);
+        }
+        let mut last = self.last.lock().unwrap_or_else(PoisonError::into_inner);
+        Ok(last.content(&path, &options)?)
+    }
+}
+
+impl CachedLog {
+    fn of(mut inspection: Inspection) -> Self {
         let nothing = LogData::of_columns::<String>([]);
         let data = std::mem::replace(&mut inspection.data, nothing);
         let channels = || data.channels.iter();
         let extremes = channels().map(|_| OnceLock::new()).collect();
         let increases = channels().map(|_| OnceLock::new()).collect();
-        Ok(Self { inspection: Arc::new(inspection), data, extremes, increases })
+        Self { inspection: Arc::new(inspection), data, extremes, increases }
+    }
+
+    /// The different values of a channel, counted from 0, in the order in which they appear; `None` if they are too many for
+    /// names of runs.
+    pub(crate) fn names(&self, channel: usize) -> Option<Vec<String>> {
+        let parts = self.data.by_value(channel)?;
+        Some(parts.into_iter().map(|(name, _)| name).collect())
     }
 
     fn values(&self) -> usize {

@@ -22,6 +22,7 @@ use crate::log_cache::TracePoints;
 use crate::opener;
 use crate::planning::{PlanView, Wanted};
 use crate::problem::Problem;
+use crate::runs;
 use crate::said::{Asked, Named, Said};
 use crate::sample;
 use crate::session::{FileKind, LogEntry, Session};
@@ -49,6 +50,7 @@ pub(crate) fn router(app: Shared) -> Router {
         .route("/api/files/{name}", put(put_file).layer(DefaultBodyLimit::disable()))
         .route("/api/logs/{id}", delete(remove_log))
         .route("/api/logs/{id}/trace/{channel}", get(trace))
+        .route("/api/logs/{id}/runs", put(put_runs))
         .route("/api/job", get(job).post(start_job).delete(stop_job))
         .route("/api/results/{id}", delete(remove_result))
         .route("/api/results/{id}/report", get(report))
@@ -141,7 +143,7 @@ async fn add_sample(State(app): State<Shared>, Said(known): Said<Known>) -> Answ
         app.change(known.revision, |session| {
             for name in names {
                 let id = session.new_log();
-                session.logs.push(LogEntry { id, name, path: None, kind: FileKind::Log });
+                session.logs.push(LogEntry::of_file(id, name, None, FileKind::Log));
             }
             session.setup = sample::setup();
             Ok(())
@@ -180,7 +182,7 @@ fn add_file(app: &Shared, name: String) -> Result<(), Problem> {
     }
     let kind = FileKind::of(&path);
     let id = app.amend(Session::new_log)?;
-    app.add(LogEntry { id, name, path: None, kind }, false)
+    app.add(LogEntry::of_file(id, name, None, kind), false)
 }
 
 /// What is not there is removed already.
@@ -197,18 +199,42 @@ async fn remove_log(
     Asked(known): Asked<Known>,
 ) -> Answer<StateView> {
     in_thread(move || {
-        let removed = app.change(known.revision, |session| {
+        let (removed, is_used) = app.change(known.revision, |session| {
             let at = session.logs.iter().position(|log| log.id == id);
             let removed = session.logs.remove(at.ok_or_else(|| Problem::not_found("log"))?);
             session.setup.forget(|log| log != id);
             if session.logs.is_empty() {
                 session.setup = Setup::default();
             }
-            Ok(removed)
+            let is_used = session.logs.iter().any(|log| log.shares_file(&removed));
+            Ok((removed, is_used))
         })?;
         app.cache.forget(id);
-        if removed.path.is_none() {
+        if removed.path.is_none() && !is_used {
             gone(std::fs::remove_file(app.folder.logs().join(removed.name)))?;
+        }
+        Ok(Json(StateView::of(&app)))
+    })
+    .await
+}
+
+#[derive(Deserialize)]
+struct NewRuns {
+    revision: u64,
+    /// Whether each run of the file is a log of its own.
+    apart: bool,
+}
+
+async fn put_runs(
+    State(app): State<Shared>,
+    Named(id): Named<u64>,
+    Said(new): Said<NewRuns>,
+) -> Answer<StateView> {
+    in_thread(move || {
+        if new.apart {
+            runs::take_apart(&app, new.revision, id)?;
+        } else {
+            runs::put_together(&app, new.revision, id)?;
         }
         Ok(Json(StateView::of(&app)))
     })

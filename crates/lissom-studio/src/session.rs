@@ -32,7 +32,7 @@ pub(crate) struct Session {
     pub(crate) results: Vec<ResultEntry>,
 }
 
-/// A file of the session.
+/// A file of the session, or one of its runs.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(crate) struct LogEntry {
@@ -42,12 +42,40 @@ pub(crate) struct LogEntry {
     /// Where it is, if it was given to the command; absent for an upload.
     pub(crate) path: Option<PathBuf>,
     pub(crate) kind: FileKind,
+    /// Its run of the file, `COLUMN=VALUE` or a group of channels; absent for the whole file.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub(crate) run: Option<String>,
 }
 
 impl LogEntry {
+    /// The whole of a file.
+    pub(crate) fn of_file(id: u64, name: String, path: Option<PathBuf>, kind: FileKind) -> Self {
+        Self { id, name, path, kind, run: None }
+    }
+
     /// Its path as a campaign in the folder of logs names it.
-    pub(crate) fn file(&self) -> PathBuf {
-        self.path.clone().unwrap_or_else(|| PathBuf::from(&self.name))
+    pub(crate) fn address(&self) -> PathBuf {
+        self.at(self.path.as_deref().unwrap_or_else(|| Path::new(&self.name)))
+    }
+
+    /// Its path, if its file is at this one.
+    pub(crate) fn at(&self, file: &Path) -> PathBuf {
+        let mut path = file.as_os_str().to_owned();
+        if let Some(run) = &self.run {
+            path.push("::");
+            path.push(run);
+        }
+        path.into()
+    }
+
+    /// Its name for people, with its run.
+    pub(crate) fn title(&self) -> String {
+        self.run.as_ref().map_or_else(|| self.name.clone(), |run| format!("{}::{run}", self.name))
+    }
+
+    /// Whether both are of one file.
+    pub(crate) fn shares_file(&self, other: &Self) -> bool {
+        self.path == other.path && self.name == other.name
     }
 }
 
@@ -166,7 +194,7 @@ impl Session {
 
     /// What is said about the logs, of which `first` is the first.
     pub(crate) fn description(&self, first: &Inspection) -> Result<Description, Problem> {
-        self.setup.description(first, |id| Some(self.log(id)?.file()))
+        self.setup.description(first, |id| Some(self.log(id)?.address()))
     }
 
     /// The campaign.toml, if there is one.

@@ -90,7 +90,7 @@ fn said(text: &str) -> Option<String> {
 
 impl Pick {
     /// The channel of the log with this name or number.
-    fn channel<'a>(&self, log: &'a Inspection) -> Option<&'a InspectedChannel> {
+    pub(crate) fn channel<'a>(&self, log: &'a Inspection) -> Option<&'a InspectedChannel> {
         let column = self.column.trim();
         let is_named = |c: &&InspectedChannel| c.name == column || c.number.to_string() == column;
         log.channels.iter().find(is_named)

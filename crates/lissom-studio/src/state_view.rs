@@ -10,6 +10,7 @@ use crate::app::App;
 use crate::exports;
 use crate::job::JobView;
 use crate::problem::Problem;
+use crate::runs;
 use crate::session::{FileKind, LogEntry, ResultEntry, Session};
 use crate::setup::Setup;
 
@@ -51,6 +52,10 @@ struct LogView {
     log: Option<InspectedLogEntry>,
     /// Seconds for one unit of its time stamps, or for one row; none if that is not known.
     stamp_s: Option<f64>,
+    /// What its runs are known by, if each can be a log of its own.
+    runs_by: Option<String>,
+    /// Whether it is one run of its file.
+    is_run: bool,
     problem: Option<Problem>,
 }
 
@@ -83,17 +88,21 @@ impl StateView {
             let read = used.filter_map(|(log, read)| Some((log, read.as_ref()?.as_ref().ok()?)));
             let lacking = read.filter_map(|(log, read)| {
                 let name = session.setup.lacking(first, read).into_iter().next()?;
-                Some(lacks(&log.name, &name))
+                Some(lacks(&log.title(), &name))
             });
             campaign.problems.extend(lacking);
         }
         let views = logs.iter().map(|(log, read)| LogView {
             id: log.id,
-            name: log.name.clone(),
+            name: log.title(),
             kind: log.kind,
             used: log.kind != FileKind::Log || !session.setup.left_out.contains(&log.id),
             log: read.as_ref().and_then(|read| inspected(read.as_ref().ok()?)),
             stamp_s: read.as_ref().and_then(|read| session.setup.stamp_s(read.as_ref().ok()?)),
+            runs_by: read.as_ref().and_then(|read| {
+                Some(runs::runs_by(&session.setup, log, read.as_ref().ok()?)?.name())
+            }),
+            is_run: log.run.is_some(),
             problem: read.as_ref().and_then(|read| read.as_ref().err()).cloned(),
         });
         Self {
@@ -145,7 +154,7 @@ fn campaign(app: &App, session: &Session, first: Option<&Arc<Inspection>>) -> Ca
     };
     let draft = || {
         let mut said = session.description(first)?;
-        let files: Vec<_> = session.used_logs().map(LogEntry::file).collect();
+        let files: Vec<_> = session.used_logs().map(LogEntry::address).collect();
         let mut draft = CampaignDraft::new(first, &files, &said).map_err(lissom_io::Error::from)?;
         if draft.assumes_hold() {
             said.hold_shown = Some(("measured".to_owned(), NOT_YET.to_owned()));

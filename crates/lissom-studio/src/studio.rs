@@ -152,7 +152,7 @@ fn add_given(app: &App, logs: Vec<(String, PathBuf)>) -> Result<(), Problem> {
     for (name, path) in logs.into_iter().filter(is_new) {
         let kind = FileKind::of(&path);
         let id = app.amend(Session::new_log)?;
-        app.add(LogEntry { id, name, path: Some(path), kind }, true)?;
+        app.add(LogEntry::of_file(id, name, Some(path), kind), true)?;
     }
     Ok(())
 }

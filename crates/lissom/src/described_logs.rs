@@ -5,6 +5,7 @@ use std::path::{Path, PathBuf};
 use lissom_core::identify::hold_shown;
 use lissom_core::record::Hold;
 use lissom_io::inspect::{CampaignDraft, Description, DraftError, Inspection, inspect_with};
+use lissom_io::log::{LastFile, LogPath};
 use lissom_io::{CampaignFile, CampaignReader, Error};
 
 /// Name of the description in messages.
@@ -42,8 +43,10 @@ impl DescribedLogs {
         said: &Description,
     ) -> Result<Self, Error> {
         let draft = CampaignDraft::new(&first, logs, said)?;
-        for other in logs.iter().skip(1) {
-            first.same_units(&folder.join(other), &said.text_options())?;
+        let mut files = LastFile::default();
+        for other in logs.iter().skip(1).map(|other| folder.join(other)) {
+            let content = files.content(&LogPath::of(&other), &said.text_options());
+            first.same_units(&other, content.map_err(Error::from)?)?;
         }
         let mut described = Self { log: first, draft, folder: folder.to_owned() };
         if let Some(hold) = described.hold_shown() {

@@ -60,6 +60,14 @@ export class Files {
     });
   }
 
+  /** Each run of a file becomes a log, or all become the file again. */
+  private runs(log: LogView, apart: boolean): void {
+    void this.store.during("reading runs", async () => {
+      const { revision } = this.store.state;
+      this.store.take(await send<State>("PUT", `/api/logs/${log.id}/runs`, { revision, apart }));
+    });
+  }
+
   render(): void {
     const { logs } = this.store.state;
     const choose = button(logs.length > 0 ? "Add logs…" : "Open logs…", () => this.input.click(), { id: "open", class: "main" });
@@ -85,13 +93,22 @@ export class Files {
         });
       });
       const what = log.problem ? log.problem.error : described(log);
+      const apart = log.runs_by
+        ? button("Take runs apart", () => this.runs(log, true), {
+            id: `apart-${log.id}`,
+            title: `Each run becomes a log, to be drawn, trimmed or left out alone. Runs are told apart by: ${log.runs_by}.`,
+          })
+        : null;
+      const file = log.name.split("::")[0];
+      const isFirst = logs.find((other) => other.is_run && other.name.split("::")[0] === file) === log;
+      const whole = isFirst ? button("Put runs together", () => this.runs(log, false), { id: `together-${log.id}`, title: `Use ${file} as one log again.` }) : null;
       return h(
         "tr",
         {},
         h("td", {}, use),
         h("td", { class: "name" }, log.name),
         h("td", log.problem ? { class: "wrong" } : {}, what),
-        h("td", {}, button("Remove", () => this.remove(log), { id: `remove-${log.id}`, "aria-label": `remove ${log.name}` })),
+        h("td", {}, h("div", { class: "row" }, apart, whole, button("Remove", () => this.remove(log), { id: `remove-${log.id}`, "aria-label": `remove ${log.name}` }))),
       );
     });
     const head = ["use", "log", "content", ""].map((text) => (text ? h("th", { scope: "col" }, text) : h("td", {})));

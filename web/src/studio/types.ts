@@ -34,6 +34,10 @@ export interface LogView {
   readonly log: InspectedLog | null;
   /** Seconds for one unit of its time stamps, or for one row; none if that is not known. */
   readonly stamp_s: number | null;
+  /** What its runs are known by, if each can be a log of its own. */
+  readonly runs_by: string | null;
+  /** Whether it is one run of its file. */
+  readonly is_run: boolean;
   readonly problem: Problem | null;
 }
 

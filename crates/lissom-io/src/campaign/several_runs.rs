@@ -3,7 +3,7 @@
 use super::memory_logs::LogPlaces;
 use super::run_spec::RunSpec;
 use crate::io_error::Error;
-use crate::log::{ColumnRef, LogOptions, LogPath};
+use crate::log::{ColumnRef, LastFile, LogOptions, LogPath};
 
 /// A run for each group that `FILE::GROUP` fits, and for each number in the column `run`.
 pub(super) fn of_specs(
@@ -13,6 +13,7 @@ pub(super) fn of_specs(
     options: &LogOptions,
 ) -> Result<Vec<RunSpec>, Error> {
     let mut runs = Vec::with_capacity(specs.len());
+    let mut files = LastFile::default();
     for spec in specs {
         let path = LogPath::of(&places.path(&spec.file));
         let in_memory = places.in_memory(&spec.file);
@@ -22,7 +23,7 @@ pub(super) fn of_specs(
         }
         let groups = match in_memory {
             Some(part) => vec![part],
-            None => path.parts(&options.of_text())?,
+            None => path.parts_of(files.content(&path, &options.of_text())?)?,
         };
         let several = groups.len() > 1;
         for group in groups {

@@ -34,6 +34,8 @@ pub struct Inspection {
     pub clock: Option<ClockFacts>,
     /// The column that tells which run, or which joint, each row is of.
     pub labels: Option<RowLabels>,
+    /// Paths of groups that have channels of the same names, and may be runs.
+    pub groups: Vec<String>,
     /// Which channel is probably what.
     pub roles: Roles,
     /// What was left out while the file was read, and what does not agree, in words.
@@ -55,21 +57,30 @@ pub fn inspect(path: &Path) -> Result<Inspection, Error> {
 /// # Errors
 /// As [`inspect`].
 pub fn inspect_with(path: &Path, options: &ReadOptions) -> Result<Inspection, Error> {
-    let (data, groups) = first_of(path, options)?;
-    let mut found = of_data(path, data);
+    inspect_content(path, LogPath::of(path).read(options)?)
+}
+
+/// Describes the log at a path, whose file has this content: [`LogPath::read`] reads it once for several runs of the file.
+///
+/// # Errors
+/// [`Error::Log`] if no group of the file fits.
+pub fn inspect_content(path: &Path, content: Arc<LogData>) -> Result<Inspection, Error> {
+    let mut parts = LogPath::of(path).parts_of(content)?;
+    let groups: Vec<String> = parts.iter().map(|part| part.name.clone()).collect();
+    let mut found = of_data(path, Arc::unwrap_or_clone(parts.swap_remove(0).data));
     if groups.len() > 1 {
         let groups = groups.join(", ");
         found.notes.push(format!("the groups {groups} fit; this is the first of them"));
     }
-    if let Some(groups) = alike_groups(&found.data) {
+    if let [first, ..] = &found.groups[..] {
         found.notes.push(format!(
             "channels of the same name are in the groups {}: if these are runs, give the log as \"{}::{}\", or one of them as \
              \"{}::{}\"",
-            groups.join(", "),
+            found.groups.join(", "),
             path.display(),
             all_groups(&found.data),
             path.display(),
-            groups[0]
+            first
         ));
     }
     Ok(found)
@@ -78,13 +89,6 @@ pub fn inspect_with(path: &Path, options: &ReadOptions) -> Result<Inspection, Er
 /// Describes a log in memory, which is called `name`.
 pub fn inspect_data(name: &str, data: LogData) -> Inspection {
     of_data(Path::new(name), data.with_time_stamps())
-}
-
-/// The first log of those that a path fits, and the groups of all.
-fn first_of(path: &Path, options: &ReadOptions) -> Result<(LogData, Vec<String>), Error> {
-    let mut parts = LogPath::of(path).parts(options)?;
-    let groups = parts.iter().map(|part| part.name.clone()).collect();
-    Ok((Arc::unwrap_or_clone(parts.swap_remove(0).data), groups))
 }
 
 fn of_data(path: &Path, data: LogData) -> Inspection {
@@ -108,6 +112,7 @@ fn of_data(path: &Path, data: LogData) -> Inspection {
         channels,
         clock,
         labels,
+        groups: alike_groups(&data).unwrap_or_default(),
         roles,
         notes,
         data,
@@ -177,13 +182,13 @@ fn contradictions(
 }
 
 impl Inspection {
-    /// Refuses another log in which a channel of the same name has another unit.
+    /// Refuses another log, whose file has this content, if a channel of the same name has another unit.
     ///
     /// # Errors
-    /// [`DraftError::OtherUnit`] with the first such channel; [`Error::Log`] if the other log cannot be read.
-    pub fn same_units(&self, other: &Path, options: &ReadOptions) -> Result<(), Error> {
+    /// [`DraftError::OtherUnit`] with the first such channel; [`Error::Log`] if no group of the file fits.
+    pub fn same_units(&self, other: &Path, content: Arc<LogData>) -> Result<(), Error> {
         let text = |unit: Option<StatedUnit>| unit.map(|u| u.text);
-        let (data, _) = first_of(other, options)?;
+        let data = LogPath::of(other).parts_of(content)?.swap_remove(0).data;
         for channel in self.channels.iter().filter(|c| !c.name.is_empty()) {
             let named = |c: &&Channel| bare_name(&c.name) == channel.name;
             let Some(same) = data.channels.iter().find(named) else { continue };

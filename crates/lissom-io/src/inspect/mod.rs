@@ -25,7 +25,7 @@ pub use clock_facts::ClockFacts;
 pub use draft::{CampaignDraft, Description, LogTrim};
 pub use draft_error::DraftError;
 pub use inspected_channel::InspectedChannel;
-pub use inspection::{Inspection, inspect, inspect_data, inspect_with};
+pub use inspection::{Inspection, inspect, inspect_content, inspect_data, inspect_with};
 pub use inspection_file::{
     ClockEntry, InspectedChannelEntry, InspectedLogEntry, InspectionFile, RoleEntry,
 };

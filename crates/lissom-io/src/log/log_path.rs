@@ -74,12 +74,27 @@ impl LogPath {
     /// # Errors
     /// [`LogError::NoGroup`] if no group fits; others if the file cannot be read.
     pub fn parts(&self, options: &ReadOptions) -> Result<Vec<LogPart>, LogError> {
-        let file = self.file.display().to_string();
+        self.parts_of(self.read(options)?)
+    }
+
+    /// Reads the whole file, with its time stamps as channels.
+    ///
+    /// # Errors
+    /// As [`read_log`](super::read_log), if the file cannot be read.
+    pub fn read(&self, options: &ReadOptions) -> Result<Arc<LogData>, LogError> {
         let data = lissom_formats::read_with(&self.file, options)
-            .map_err(|error| LogError::of_format(file.clone(), error))?
-            .with_time_stamps();
+            .map_err(|error| LogError::of_format(self.file.display().to_string(), error))?;
+        Ok(Arc::new(data.with_time_stamps()))
+    }
+
+    /// The logs of its file, whose content is `data`.
+    ///
+    /// # Errors
+    /// [`LogError::NoGroup`] if no group fits.
+    pub fn parts_of(&self, data: Arc<LogData>) -> Result<Vec<LogPart>, LogError> {
+        let file = self.file.display().to_string();
         let Some(group) = &self.group else {
-            return Ok(vec![LogPart { label: file, name: String::new(), data: Arc::new(data) }]);
+            return Ok(vec![LogPart { label: file, name: String::new(), data }]);
         };
         let mut found = data.groups(group);
         if found.is_empty()

@@ -18,6 +18,7 @@
 //! log ([`Log::time_back`]). Two rows with the same stamp and different values are an error.
 
 mod groups;
+mod last_file;
 mod log_body;
 mod log_columns;
 mod log_error;
@@ -35,6 +36,7 @@ mod read_log;
 mod thinner;
 
 pub(crate) use groups::{alike_groups, all_groups, beside};
+pub use last_file::LastFile;
 pub use log_columns::{ColumnRef, Log, LogColumn, LogOptions, TimeBack};
 pub use log_error::LogError;
 pub(crate) use log_layout::{Delimiter, comment, is_header, number};
