@@ -8,9 +8,10 @@ use crate::threshold::Threshold;
 use crate::{information, plan, record, spectrum};
 
 /// The lists of all methods, in the order of the data flow.
-const GROUPS: [&[Threshold]; 17] = [
+const GROUPS: [&[Threshold]; 18] = [
     record::clock::thresholds::LIST,
     record::other_clock::thresholds::LIST,
+    record::spikes::thresholds::LIST,
     all_methods::LIST,
     spectrum::thresholds::LIST,
     prepare::thresholds::LIST,

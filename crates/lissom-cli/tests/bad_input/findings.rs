@@ -197,15 +197,26 @@ fn a_clipped_motor_is_seen() {
 }
 
 #[test]
-fn a_lone_reading_is_seen() {
+fn a_lone_reading_is_replaced_and_many_are_reported() {
     let spiked = |i: usize, row: &mut Row| {
         if i == 400 {
             row[2] += 3.0;
         }
     };
-    let found = changed(spiked).findings("spike");
+    let bench = changed(spiked);
+    let found = bench.findings("spikes-replaced");
     let [told] = &found[..] else { panic!("{found:?}") };
-    assert!(told.contains("the motor channel has a spike: it reads 3."), "{told}");
+    assert!(told.contains("the motor reads 3."), "{told}");
+    assert!(told.contains("far from the readings before and after it"), "{told}");
+    assert!(bench.findings("spike").is_empty());
+    let many = |i: usize, row: &mut Row| {
+        if i % 200 == 100 {
+            row[2] += 3.0;
+        }
+    };
+    let found = changed(many).findings("spike");
+    let [told] = &found[..] else { panic!("{found:?}") };
+    assert!(told.contains("the motor channel has a spike"), "{told}");
 }
 
 #[test]

@@ -4,14 +4,17 @@
 mod channel;
 pub mod clock;
 mod error;
+pub(crate) mod extent;
 mod note;
 pub mod other_clock;
 mod run;
+pub(crate) mod spikes;
 
 pub use channel::{Axis, Channels, Command, CommandQuantity, Hold, Tip, TipQuantity};
 pub use error::RecordError;
 pub use note::Note;
 pub use run::{Run, TimeBase};
+pub use spikes::{ReplacedReading, replace_spikes};
 
 /// Several runs of one machine, all with the same channels.
 #[derive(Debug, Clone)]

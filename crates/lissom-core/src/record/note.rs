@@ -97,6 +97,17 @@ pub enum Note {
         /// Number of jumps.
         count: usize,
     },
+    /// Single wrong readings of a position were replaced by the means of their neighbours.
+    SpikesReplaced {
+        /// Name of the channel.
+        channel: String,
+        /// Number of readings.
+        count: usize,
+        /// Time of the first one, from the first stamp of the log \[s\].
+        at_s: f64,
+        /// What it was [rad or m].
+        value: f64,
+    },
     /// The log had too many rows. Each sample is now made of several of them.
     Thinned {
         /// Number of rows of the log per sample.

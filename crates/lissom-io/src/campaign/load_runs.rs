@@ -203,13 +203,14 @@ fn even_parts(
     let (mut command, mut motor, mut tips) = channels(columns, signals);
     in_range(&command, &motor, &tips, signals, file)?;
     let turns = remove_turns(signals, &mut command, &mut motor, &mut tips);
+    let spikes = replace_spikes(signals, &stamps_s, &mut motor, &mut tips);
     if let Some(speed) = speed.filter(|_| signals.motor_log.is_none())
         && let Some(found) = speed_check::contradiction(&stamps_s, &motor, &speed)
     {
         let Contradiction { ratio, correlation } = found;
         return Err(LogError::Speed { file: file.to_owned(), ratio, correlation }.into());
     }
-    let (stamps_s, command, motor, tips, notes) = if has_own_logs(signals) {
+    let (stamps_s, command, motor, tips, mut notes) = if has_own_logs(signals) {
         let mut all = RunSignals { stamps_s, command, motor, tips, notes: Vec::new() };
         let log_options = LogOptions { max_rows: options.max_rows, ..LogOptions::default() };
         RunLog { places, spec, signals, options: &log_options, file }.join(&mut all)?;
@@ -218,6 +219,7 @@ fn even_parts(
     } else {
         (stamps_s, command, motor, tips, Vec::new())
     };
+    notes.extend(spikes);
     let hold = signals.command.hold;
     let rows = LogRows { stamps_s, sample_time_s, stamp_step_s, command, hold, motor, tips };
     let even =
@@ -279,6 +281,28 @@ fn remove_turns(
         }
     }
     turns
+}
+
+/// Replaces single wrong readings of the positions of motor and tips.
+fn replace_spikes(
+    signals: &Signals,
+    stamps_s: &[f64],
+    motor: &mut [f64],
+    tips: &mut [Vec<f64>],
+) -> Vec<Note> {
+    let motor = (!signals.motor_speed).then(|| ("motor".to_owned(), motor));
+    let tips = signals.tips.iter().zip(tips).filter_map(|((tip, _), samples)| {
+        let is_position = tip.quantity != TipQuantity::Acceleration;
+        is_position.then(|| (format!("tip \"{}\"", tip.name), samples.as_mut_slice()))
+    });
+    let replace = |(channel, samples): (String, &mut [f64])| {
+        let replaced = lissom_core::record::replace_spikes(samples);
+        let first = replaced.first()?;
+        let at_s = stamps_s.get(first.sample)? - stamps_s.first()?;
+        let value = first.value;
+        Some(Note::SpikesReplaced { channel, count: replaced.len(), at_s, value })
+    };
+    motor.into_iter().chain(tips).filter_map(replace).collect()
 }
 
 /// Converts command, motor and tips to SI.

@@ -122,6 +122,17 @@ pub enum LogFinding {
         /// Number of jumps.
         count: usize,
     },
+    /// Single wrong readings are replaced.
+    SpikesReplaced {
+        /// Name of the channel.
+        channel: String,
+        /// Number of readings.
+        count: usize,
+        /// Time of the first one \[s\].
+        at_s: f64,
+        /// What it was \[rad or m\].
+        value: f64,
+    },
     /// The command follows the motor as a position goal does.
     CommandFollowsMotor {
         /// Correlation of command and angle.
@@ -177,6 +188,9 @@ impl From<&Note> for LogFinding {
             }
             Note::SpeedIntegrated => Self::SpeedIntegrated,
             Note::TurnsRemoved { count } => Self::TurnsRemoved { count },
+            Note::SpikesReplaced { ref channel, count, at_s, value } => {
+                Self::SpikesReplaced { channel: channel.clone(), count, at_s, value }
+            }
             Note::Thinned { factor } => Self::Thinned { factor },
             Note::HeadSkipped { seconds } => Self::HeadSkipped { length_s: seconds },
             Note::LeftOut { stretches } => Self::LeftOut { stretches },
@@ -241,6 +255,16 @@ impl fmt::Display for LogFinding {
                 "{} of one turn {} removed from the angles: the encoder starts again after each turn",
                 counted(*count, "jump", "jumps"),
                 if *count == 1 { "is" } else { "are" }
+            ),
+            Self::SpikesReplaced { channel, count: 1, at_s, value } => write!(
+                f,
+                "{at_s:.4} s after the log's first stamp the {channel} reads {value:.4}, far from the readings before and after \
+                 it: it is replaced by their mean"
+            ),
+            Self::SpikesReplaced { channel, count, at_s, value } => write!(
+                f,
+                "{count} readings of the {channel} are far from those before and after them, and replaced by the mean of these: \
+                 the first, {at_s:.4} s after the log's first stamp, is {value:.4}"
             ),
             Self::CommandFollowsMotor { correlation } => write!(
                 f,
@@ -414,6 +438,7 @@ impl Describe for LogFinding {
             | Self::OtherClock { .. }
             | Self::SpeedIntegrated
             | Self::TurnsRemoved { .. }
+            | Self::SpikesReplaced { .. }
             | Self::Thinned { .. }
             | Self::HeadSkipped { .. }
             | Self::LeftOut { .. } => Severity::Info,
@@ -446,6 +471,7 @@ impl Describe for LogFinding {
             | Self::OtherClock { .. }
             | Self::SpeedIntegrated
             | Self::TurnsRemoved { .. }
+            | Self::SpikesReplaced { .. }
             | Self::Thinned { .. }
             | Self::HeadSkipped { .. }
             | Self::LeftOut { .. } => Vec::new(),
@@ -488,6 +514,9 @@ impl Describe for LogFinding {
                 "nothing to do; a log that also has the angle shows slow motion better"
             }
             Self::TurnsRemoved { .. } => "nothing to do",
+            Self::SpikesReplaced { .. } => {
+                "nothing to do; the cause is a lost count or a fault of the connection"
+            }
             Self::CommandFollowsMotor { .. } => {
                 "if the command is a position goal, give it `quantity = \"goal\"`; nothing to do if a spring or gravity holds \
                  the motor"

@@ -2,64 +2,14 @@
 
 use crate::identify::prepare::thresholds::{
     CLIPPED_SLOPE, CLIPPED_SLOWED, ENCODER_STEPS, MOVED_STEPS, REST_RANGE, REST_STEPS,
-    SLOWING_SHOWN, SPIKE_AT_END_LEAST, SPIKE_SHAPE, SPIKE_SIZE,
+    SLOWING_SHOWN,
 };
+use crate::record::extent::{extremes, range, step};
+use crate::record::spikes::bends;
+use crate::record::spikes::thresholds::{SPIKE_SHAPE, SPIKE_SIZE};
 
 /// Samples over which slopes are taken: a quantised signal has none over one.
 const REACH: usize = 4;
-
-/// Smallest difference between neighbouring values that a channel takes: its step.
-///
-/// Differences below 1e-9 of the range are rounding of one value. Zero for a constant.
-pub(crate) fn step(samples: &[f64]) -> f64 {
-    let range = range(samples);
-    least_difference(samples, 1e-9 * range).min(range)
-}
-
-/// Values looked at side by side: one after the other would wait for each comparison.
-const LANES: usize = 8;
-
-/// Smallest difference of neighbouring values that is larger than `floor`; infinite where none is.
-pub(crate) fn least_difference(samples: &[f64], floor: f64) -> f64 {
-    let Some((_, after)) = samples.split_first() else { return f64::INFINITY };
-    let (before, _) = samples.split_at(after.len());
-    let mut least = [f64::INFINITY; LANES];
-    let mut take = |lane: usize, a: f64, b: f64| {
-        let way = (b - a).abs();
-        let way = if way > floor { way } else { f64::INFINITY };
-        least[lane] = if way < least[lane] { way } else { least[lane] };
-    };
-    let ((before, a_rest), (after, b_rest)) =
-        (before.as_chunks::<LANES>(), after.as_chunks::<LANES>());
-    for (a, b) in before.iter().zip(after) {
-        (0..LANES).for_each(|lane| take(lane, a[lane], b[lane]));
-    }
-    a_rest.iter().zip(b_rest).for_each(|(a, b)| take(0, *a, *b));
-    least.into_iter().fold(f64::INFINITY, f64::min)
-}
-
-/// Largest minus smallest value.
-pub(crate) fn range(samples: &[f64]) -> f64 {
-    let (low, high) = extremes(samples);
-    high - low
-}
-
-pub(crate) fn extremes(samples: &[f64]) -> (f64, f64) {
-    let (mut low, mut high) = ([f64::INFINITY; LANES], [f64::NEG_INFINITY; LANES]);
-    let mut take = |lane: usize, x: f64| {
-        low[lane] = if x < low[lane] { x } else { low[lane] };
-        high[lane] = if x > high[lane] { x } else { high[lane] };
-    };
-    let (chunks, rest) = samples.as_chunks::<LANES>();
-    for chunk in chunks {
-        (0..LANES).for_each(|lane| take(lane, chunk[lane]));
-    }
-    for x in rest {
-        take(0, *x);
-    }
-    let low = low.into_iter().fold(f64::INFINITY, f64::min);
-    (low, high.into_iter().fold(f64::NEG_INFINITY, f64::max))
-}
 
 /// Share of samples at which a channel stands at its largest or smallest value after having run
 /// into it at speed: at least three samples on end, entered with a slope of 30 % of the largest, and on the whole with
@@ -118,57 +68,6 @@ pub(super) fn steepest(samples: &[f64], quantum: f64) -> f64 {
         }
         over *= 2;
     }
-}
-
-/// Second differences of a channel, and what all but a twentieth of those that are not zero stay below.
-fn bends(samples: &[f64]) -> Option<(Vec<f64>, f64)> {
-    let bend: Vec<f64> = samples.windows(3).map(|w| w[0] - 2.0 * w[1] + w[2]).collect();
-    let mut sizes: Vec<f64> = bend.iter().map(|b| b.abs()).filter(|b| *b > 0.0).collect();
-    if sizes.is_empty() {
-        return None;
-    }
-    let rank = sizes.len() * 19 / 20;
-    let (_, usual, _) = sizes.select_nth_unstable_by(rank, f64::total_cmp);
-    Some((bend, *usual))
-}
-
-/// Samples that stand alone: one reading off those before and after it, which agree, by far more than the motion
-/// bends elsewhere.
-///
-/// A knock bends the motion too, but leaves its velocity changed; a lone reading has second differences of 1, −2, 1.
-/// Of the first and the last reading there is one, as of a knock: it must be twice as large as all others but those of
-/// readings that stand alone.
-pub(crate) fn spikes(samples: &[f64]) -> Vec<usize> {
-    let Some((bend, usual)) = bends(samples) else { return Vec::new() };
-    let least = (SPIKE_SIZE * usual).max(SPIKE_SIZE * step(samples));
-    let halved = |side: f64, middle: f64| (side / middle + 0.5).abs() < SPIKE_SHAPE;
-    let alone = |(k, w): (usize, &[f64])| {
-        let spike = w[1].abs() > least && halved(w[0], w[1]) && halved(w[2], w[1]);
-        // The middle of three second differences is that of the sample two on.
-        spike.then_some(k + 2)
-    };
-    let mut found: Vec<usize> = bend.windows(3).enumerate().filter_map(alone).collect();
-    if bend.len() < SPIKE_AT_END_LEAST {
-        return found;
-    }
-    let last = bend.len() - 1;
-    let near_one = |k: usize| found.iter().any(|s| (k + 1).abs_diff(*s) <= 1);
-    let inner = (2..last - 1).filter(|k| !near_one(*k));
-    let most = 2.0 * inner.map(|k| bend[k].abs()).fold(0.5 * least, f64::max);
-    // Bends from an end inwards: one of the reading at the end, −2 and 1 of the one beside it.
-    let at_end = |[outer, inner]: [f64; 2]| {
-        let large = outer.abs() > most;
-        match (large && halved(inner, outer), large && inner.abs() < SPIKE_SHAPE * outer.abs()) {
-            (true, _) => Some(1),
-            (_, true) => Some(0),
-            _ => None,
-        }
-    };
-    let first = at_end([bend[0], bend[1]]);
-    let end = at_end([bend[last], bend[last - 1]]).map(|k| samples.len() - 1 - k);
-    found.splice(0..0, first);
-    found.extend(end);
-    found
 }
 
 /// Samples at which a channel has come to another level at once, and how far: its readings before and after go on
@@ -253,46 +152,10 @@ pub(crate) fn dwell_share(motor: &[f64], omega_rad_s: f64, sample_time_s: f64) -
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::record::spikes::spikes;
 
     fn sine(limit: f64) -> Vec<f64> {
         (0..4000).map(|k| (0.02 * f64::from(k)).sin().clamp(-limit, limit)).collect()
-    }
-
-    #[test]
-    fn a_lone_reading_is_a_spike_and_a_knock_is_none() {
-        // It bounces at zero.
-        let bounced: Vec<f64> = sine(2.0).iter().map(|v| v.abs()).collect();
-        assert!(spikes(&bounced).is_empty());
-        for step in [0.0, 1e-3] {
-            let mut x = sine(2.0);
-            x[700] += 0.3;
-            x[2500] -= 0.5;
-            if step > 0.0 {
-                for v in &mut x {
-                    *v = (*v / step).round() * step;
-                }
-            }
-            assert_eq!(spikes(&x), [700, 2500]);
-        }
-        assert!(spikes(&[0.0, 1.0]).is_empty());
-    }
-
-    #[test]
-    fn the_first_and_the_last_reading_may_be_spikes() {
-        assert!(spikes(&sine(2.0)).is_empty());
-        for (at, by) in [0, 1, 2, 3997, 3998, 3999].into_iter().flat_map(|k| [(k, 0.3), (k, -0.3)])
-        {
-            let mut x = sine(2.0);
-            x[at] += by;
-            assert_eq!(spikes(&x), [at]);
-            // Beside a larger one.
-            x[2000] -= 0.7;
-            assert_eq!(spikes(&x).len(), 2);
-        }
-        // A motion that is knocked as hard elsewhere may be knocked there.
-        let mut bounced: Vec<f64> = sine(2.0).iter().map(|v| v.abs()).collect();
-        bounced.truncate(3927 + 2);
-        assert!(spikes(&bounced).is_empty());
     }
 
     #[test]

@@ -1,7 +1,7 @@
 //! How noisy a channel is: its sensor's step and the noise beyond it, from its samples alone.
 
-use crate::identify::prepare::channel_check::{least_difference, range};
 use crate::identify::prepare::thresholds::{STEP_MULTIPLES, STEP_WHOLE};
+use crate::record::extent::{least_difference, range};
 
 /// Differences below this share of the range are rounding, not steps.
 const ROUNDING: f64 = 1e-9;

@@ -2,10 +2,11 @@
 
 use std::ops::Range;
 
-use crate::identify::prepare::channel_check::{range, steepest, step};
+use crate::identify::prepare::channel_check::steepest;
 use crate::identify::prepare::thresholds::{
     FROZEN_AT_ONCE, FROZEN_AT_SPEED, FROZEN_LONGER, FROZEN_SAMPLES, FROZEN_TRAVEL, MOVED_STEPS,
 };
+use crate::record::extent::{range, step};
 
 /// The stretch over which a tip's angle takes one value while the `motor` moves on: far longer than it stands anywhere
 /// else.

@@ -6,11 +6,11 @@ use rayon::prelude::*;
 
 use crate::identify::findings::{Channel, ChannelFinding, Finding};
 use crate::identify::options::Options;
-use crate::identify::prepare::channel_check::range;
 use crate::identify::prepare::log_check::{command_follows_motor, one_jitter_for_each_log};
 use crate::identify::prepare::run_analysis::{RunAnalysis, analyse};
 use crate::identify::prepare::run_noise::RunNoise;
 use crate::identify::prepare::tip_zero::without_tip_zeros;
+use crate::record::extent::range;
 use crate::record::{Campaign, Run, Tip};
 
 /// A campaign prepared once for all methods.

@@ -8,9 +8,7 @@ use crate::identify::findings::{
 };
 use crate::identify::methods::constant_velocity::thresholds::{STEADY_BOTH_WAYS, STEADY_ONE_WAY};
 use crate::identify::methods::regression::slip_sign;
-use crate::identify::prepare::channel_check::{
-    clipped_share, dwell_share, range, rest_share, step,
-};
+use crate::identify::prepare::channel_check::{clipped_share, dwell_share, rest_share};
 use crate::identify::prepare::repeated_run::repeats;
 use crate::identify::prepare::run_phasors::RunPhasors;
 use crate::identify::prepare::sensor_check;
@@ -23,6 +21,7 @@ use crate::identify::prepare::thresholds::{
     STICKING_REPORTED,
 };
 use crate::identify::thresholds::SAME_FREQUENCY;
+use crate::record::extent::{range, step};
 use crate::record::{Campaign, Hold, Run};
 use crate::spectrum::{
     Harmonics, Phasor, Steady, SteadyError, find_frequency, hold_factor, least_squares,

@@ -3,10 +3,11 @@
 use std::ops::Range;
 
 use crate::identify::findings::{Channel, ChannelFinding, EstimateUnits, Finding};
-use crate::identify::prepare::channel_check::{clipped_share, encoder_bits, jumps, spikes};
+use crate::identify::prepare::channel_check::{clipped_share, encoder_bits, jumps};
 use crate::identify::prepare::frozen_sensor::{frozen_motor, frozen_tip};
 use crate::identify::prepare::thresholds::{CLIPPED_REPORTED, WHOLE_TURN};
 use crate::identify::thresholds::RUNS_LEFT_OUT_OF;
+use crate::record::spikes::spikes;
 use crate::record::{Axis, Campaign, Run, Tip, TipQuantity};
 
 pub(crate) fn findings(campaign: &Campaign, run: &Run) -> Vec<Finding> {

@@ -26,15 +26,6 @@ thresholds! {
         /// Share of a run's readings at the end of a sensor's range above which this is reported,
         /// and the output-error method leaves these readings out.
         CLIPPED_REPORTED: f64 = 0.002, "1", Convention;
-        /// A reading is a spike, or a jump to another level, if its second difference is this many
-        /// times the value that 95 % of the others stay below, and this many steps of the sensor.
-        SPIKE_SIZE: f64 = 20.0, "1", Convention;
-        /// The second differences of a spike are 1, -2, 1 and those of a jump 1, -1 to within this
-        /// share; those of a mechanical shock are not.
-        SPIKE_SHAPE: f64 = 0.1, "1", Convention;
-        /// The first and the last reading are checked for spikes only if the channel has this many
-        /// second differences for comparison.
-        SPIKE_AT_END_LEAST: usize = 20, "samples", Convention;
         /// Readings are on the steps of an encoder if their distance from the steps is less than
         /// this (rms). Readings that have nothing to do with the steps have 0.29.
         ENCODER_STEPS: f64 = 0.02, "steps", Convention;

@@ -5,8 +5,9 @@ use rayon::prelude::*;
 use crate::identify::methods::output_error::thresholds::{
     RESIDUAL_BLOCK, RESIDUAL_BLOCKS_LEAST, RESIDUAL_BLOCKS_MOST,
 };
-use crate::identify::prepare::channel_check::{clipped_share, range};
+use crate::identify::prepare::channel_check::clipped_share;
 use crate::identify::prepare::thresholds::CLIPPED_REPORTED;
+use crate::record::extent::range;
 use crate::record::{Campaign, Run};
 use crate::replay::Blocks;
 
