@@ -13,8 +13,12 @@ impl LogData {
     ///
     /// `run3` is the group of `run3/t` and `run3/q`; `run*` are all groups that begin with `run`; `run3_` has `run3_t` as
     /// `t`. A `/` at the beginning does not count. Time stamps outside of a group come with it, under their whole name.
+    /// A group whose path is `pattern` itself comes before others that fit.
     #[must_use]
     pub fn groups(&self, pattern: &str) -> Vec<(String, Self)> {
+        let has = |split: &dyn Fn(&str) -> bool| self.channels.iter().any(|c| split(&c.name));
+        let is_itself = pattern.contains('*') && has(&|name| of_group(name, pattern).is_some());
+        let split = if is_itself { of_group } else { of_pattern };
         let mut found: Vec<(String, Vec<(usize, String)>)> = Vec::new();
         for (k, channel) in self.channels.iter().enumerate() {
             let Some((group, name)) = split(&channel.name, pattern) else { continue };
@@ -133,14 +137,20 @@ enum Key<'a> {
     Number(u64),
 }
 
-/// The group that a name is in, and the name within it.
-fn split<'a>(name: &'a str, pattern: &str) -> Option<(&'a str, &'a str)> {
+/// The group of this path, if a name is in it, and the name within it.
+fn of_group<'a>(name: &'a str, group: &str) -> Option<(&'a str, &'a str)> {
     let name = name.trim_start_matches('/');
-    let pattern = pattern.trim_start_matches('/');
-    let Some((before, after)) = pattern.split_once('*') else {
-        let rest = name.strip_prefix(pattern)?;
-        return Some((&name[..pattern.len()], within(pattern, rest)?));
+    let group = group.trim_start_matches('/');
+    let rest = name.strip_prefix(group)?;
+    Some((&name[..group.len()], within(group, rest)?))
+}
+
+/// The group of a path that fits a pattern, if a name is in one, and the name within it.
+fn of_pattern<'a>(name: &'a str, pattern: &str) -> Option<(&'a str, &'a str)> {
+    let Some((before, after)) = pattern.trim_start_matches('/').split_once('*') else {
+        return of_group(name, pattern);
     };
+    let name = name.trim_start_matches('/');
     let rest = name.strip_prefix(before)?;
     let ends = rest.char_indices().map(|(k, c)| (k + c.len_utf8(), c));
     for (end, _) in ends.take_while(|(_, c)| *c != '/') {
@@ -198,6 +208,9 @@ mod tests {
         assert_eq!(named("/run*"), ["run1: t q", "run2: t"]);
         assert_eq!(named("*"), ["run1: t q", "run2: t", "data[2]: q"]);
         assert_eq!(named("data[*]"), ["data[2]: q"]);
+        let stars = data(&[("x/q", &[0.0]), ("x*/q", &[1.0]), ("xy/q", &[2.0])]);
+        let exact = stars.groups("x*");
+        assert_eq!(names(&exact), [("x*".to_owned(), vec!["q".to_owned()])]);
         assert_eq!(named("b*_"), ["b1_: t", "b12_: t"]);
         assert_eq!(named("b1_"), ["b1_: t"]);
         let nested = data(&[("m/un_1/t", &[0.0]), ("m/un_2/t", &[0.0])]);

@@ -54,6 +54,11 @@ impl App {
         self.locked().clone()
     }
 
+    /// The same for a page that knows the session as it is.
+    pub(crate) fn known(&self, revision: u64) -> Result<Session, Problem> {
+        self.locked().known(revision)
+    }
+
     fn locked(&self) -> MutexGuard<'_, Session> {
         self.session.lock().unwrap_or_else(PoisonError::into_inner)
     }
@@ -65,13 +70,7 @@ impl App {
         change: impl FnOnce(&mut Session) -> Result<T, Problem>,
     ) -> Result<T, Problem> {
         let mut session = self.locked();
-        if session.revision != revision {
-            return Err(Problem::conflict(
-                "another page has changed this session meanwhile",
-                "this page shows the session as it is now; make your change again",
-            ));
-        }
-        let mut changed = session.clone();
+        let mut changed = session.known(revision)?;
         let made = change(&mut changed)?;
         changed.revision += 1;
         self.folder.write(&changed)?;
@@ -99,7 +98,8 @@ impl App {
                 "remove it first: a session has one campaign.toml",
             ));
         }
-        if let Some(same) = self.same_file(&session, &log)? {
+        // Files that are given are used as they are: the identification reports runs that repeat others.
+        if let Some(same) = self.same_file(&session, &log)?.filter(|_| !even_unreadable) {
             let error = format!("{} is the same file as {same}, which is there already", log.name);
             return Err(Problem::input(error, None));
         }

@@ -9,6 +9,7 @@ use std::time::{SystemTime, UNIX_EPOCH};
 
 use lissom::DescribedLogs;
 use lissom::identify::{Effort, Identified, Interrupt, Options, Severity, Stage, identify};
+use lissom::record::Hold;
 use lissom_io::campaign::{AnalysisOptions, DriveConstants};
 use lissom_io::inspect::{Description, Inspection};
 use lissom_io::{CampaignFile, CampaignReader, EffortName, ResultFile, UnitNames, write};
@@ -178,9 +179,9 @@ fn made(session: &Session, logs: Logs, job: &Job) -> Result<Made, Problem> {
     let page = report_page::page(&name, content);
     let count = |severity| id.findings.iter().filter(|f| f.severity() == severity).count();
     let mut setup = session.setup.clone();
-    if is_described {
-        // What was found from the motion is now said: a part of the logs may not show it.
-        setup.say_hold(file.campaign.channels.command.hold);
+    if is_described && file.campaign.channels.command.hold == Hold::Sampled {
+        // What was found from the motion is now said: a part of the logs may not show it. A hold that was only assumed is not.
+        setup.say_sampled();
     }
     let made = SystemTime::now().duration_since(UNIX_EPOCH).unwrap_or_default();
     Ok(Made {

@@ -5,7 +5,7 @@ use lissom_io::inspect::{InspectedChannel, Inspection};
 use crate::app::App;
 use crate::problem::Problem;
 use crate::session::{LogEntry, Session};
-use crate::setup::{Pick, Setup};
+use crate::setup::{Pick, Setup, Trim};
 
 /// Most runs of a file that become logs: the page has a row for each.
 const RUNS_MOST: usize = 200;
@@ -47,7 +47,7 @@ pub(crate) fn runs_by<'a>(
 
 /// Replaces a log by one for each of its runs.
 pub(crate) fn take_apart(app: &App, revision: u64, id: u64) -> Result<(), Problem> {
-    let session = app.session();
+    let session = app.known(revision)?;
     let log = session.log(id).ok_or_else(|| Problem::not_found("log"))?;
     let inspection = app.inspection(&session, log)?;
     let by = runs_by(&session.setup, log, &inspection).ok_or_else(|| {
@@ -67,17 +67,20 @@ pub(crate) fn take_apart(app: &App, revision: u64, id: u64) -> Result<(), Proble
     app.change(revision, |session| {
         let at = position(session, id)?;
         let whole = session.logs.remove(at);
-        let is_first = session.used_logs().next().is_none() || at == 0;
+        let is_used = !session.setup.left_out.contains(&id);
+        let is_alone = session.used_logs().next().is_none();
+        let trim = session.setup.trims.iter().find(|trim| trim.log == id).cloned();
         for (k, run) in runs.into_iter().enumerate() {
             let id = if k == 0 { first_id } else { session.new_log() };
             session.logs.insert(at + k, LogEntry { id, run: Some(run), ..whole.clone() });
+            if !is_used {
+                session.setup.left_out.push(id);
+            }
+            session.setup.trims.extend(trim.clone().map(|trim| Trim { log: id, ..trim }));
         }
         session.setup.forget(|log| log != id);
-        if let Some(guessed) = guessed.filter(|_| is_first) {
-            session.setup = Setup { effort: session.setup.effort, ..guessed };
-        }
-        if session.used_logs().all(|log| log.run.is_some()) {
-            session.setup.run.clear();
+        if let Some(guessed) = guessed.filter(|_| is_used && is_alone) {
+            session.setup.pick_as(guessed);
         }
         Ok(())
     })?;
@@ -115,21 +118,40 @@ fn names(
     Err(Problem::input(error, Some(hint)))
 }
 
-/// Replaces all runs of a file by the file.
+/// Replaces all runs of a file by the file. What all of its runs have in common is kept.
 pub(crate) fn put_together(app: &App, revision: u64, id: u64) -> Result<(), Problem> {
+    let session = app.known(revision)?;
+    let run = session.log(id).ok_or_else(|| Problem::not_found("log"))?;
+    let whole = LogEntry { run: None, id: app.amend(Session::new_log)?, ..run.clone() };
+    let is_of_groups = app
+        .inspection(&session, &whole)?
+        .groups
+        .iter()
+        .any(|group| Some(group) == run.run.as_ref());
     let gone = app.change(revision, |session| {
         let at = position(session, id)?;
-        let whole = LogEntry { run: None, id: session.new_log(), ..session.logs[at].clone() };
         let (runs, others): (Vec<_>, Vec<_>) =
             session.logs.drain(..).partition(|log| log.shares_file(&whole));
         session.logs = others;
-        session.logs.insert(at.min(session.logs.len()), whole);
+        let is_alone = session.used_logs().next().is_none();
         let gone: Vec<u64> = runs.iter().map(|log| log.id).collect();
-        session.setup.forget(|log| !gone.contains(&log));
-        let column = runs.iter().find_map(|log| Some(log.run.as_ref()?.split_once('=')?.0));
-        if let Some(column) = column.filter(|_| session.setup.run.is_empty()) {
-            column.clone_into(&mut session.setup.run);
+        let setup = &mut session.setup;
+        if gone.iter().all(|id| setup.left_out.contains(id)) {
+            setup.left_out.push(whole.id);
         }
+        let trim_of = |id: &u64| {
+            let trim = setup.trims.iter().find(|trim| trim.log == *id)?;
+            Some(Trim { log: whole.id, ..trim.clone() })
+        };
+        let trims: Vec<Option<Trim>> = gone.iter().map(trim_of).collect();
+        if trims.windows(2).all(|pair| pair[0] == pair[1]) {
+            setup.trims.extend(trims.into_iter().next().flatten());
+        }
+        setup.forget(|log| !gone.contains(&log));
+        if is_of_groups && is_alone {
+            setup.pick_as(Setup::default());
+        }
+        session.logs.insert(at.min(session.logs.len()), whole);
         Ok(gone)
     })?;
     for id in gone {

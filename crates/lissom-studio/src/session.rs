@@ -170,6 +170,17 @@ impl Session {
         }
     }
 
+    /// A copy for a page that knows it as it is.
+    pub(crate) fn known(&self, revision: u64) -> Result<Self, Problem> {
+        if self.revision == revision {
+            return Ok(self.clone());
+        }
+        Err(Problem::conflict(
+            "another page has changed this session meanwhile",
+            "this page shows the session as it is now; make your change again",
+        ))
+    }
+
     /// A number that no log has had.
     pub(crate) fn new_log(&mut self) -> u64 {
         self.next_log += 1;
@@ -194,7 +205,10 @@ impl Session {
 
     /// What is said about the logs, of which `first` is the first.
     pub(crate) fn description(&self, first: &Inspection) -> Result<Description, Problem> {
-        self.setup.description(first, |id| Some(self.log(id)?.address()))
+        let said = self.setup.description(first, |id| Some(self.log(id)?.address()))?;
+        // Logs that are single runs have no column of runs.
+        let run = said.run.filter(|_| self.used_logs().any(|log| log.run.is_none()));
+        Ok(Description { run, ..said })
     }
 
     /// The campaign.toml, if there is one.

@@ -2,7 +2,6 @@
 
 use std::path::PathBuf;
 
-use lissom::record::Hold;
 use lissom_io::EffortName;
 use lissom_io::inspect::{
     Choice, CommandKey, Description, InspectedChannel, Inspection, LogTrim, Role,
@@ -222,14 +221,10 @@ impl Setup {
         Ok(Some((key, choice)))
     }
 
-    /// Says how the command acts between its samples, if nothing is said.
-    pub(crate) fn say_hold(&mut self, hold: Hold) {
+    /// Says that the command is held between its samples, if nothing is said.
+    pub(crate) fn say_sampled(&mut self) {
         if self.hold.is_empty() {
-            let name = match hold {
-                Hold::Sampled => "sampled",
-                Hold::Measured => "measured",
-            };
-            name.clone_into(&mut self.hold);
+            "sampled".clone_into(&mut self.hold);
         }
     }
 
@@ -250,6 +245,13 @@ impl Setup {
             column.trim().is_empty() || pick.channel(log).is_some()
         };
         picked.chain(guessed).filter(|column| !has(column)).collect()
+    }
+
+    /// Takes the channels of another setup.
+    pub(crate) fn pick_as(&mut self, other: Self) {
+        let Self { time, command, motor, speed, tips, .. } = other;
+        (self.time, self.command, self.motor, self.speed, self.tips) =
+            (time, command, motor, speed, tips);
     }
 
     /// Removes what is said about logs that are not there.

@@ -1,5 +1,6 @@
 //! The application: opened, then run.
 
+use std::collections::BTreeSet;
 use std::fs;
 use std::io;
 use std::net::{Ipv4Addr, TcpListener};
@@ -149,7 +150,11 @@ fn add_given(app: &App, logs: Vec<(String, PathBuf)>) -> Result<(), Problem> {
     let is_new = |(_, path): &(String, PathBuf)| {
         !known.logs.iter().any(|log| log.path.as_ref() == Some(path))
     };
+    let mut given = BTreeSet::new();
     for (name, path) in logs.into_iter().filter(is_new) {
+        if !given.insert(path.clone()) {
+            continue;
+        }
         let kind = FileKind::of(&path);
         let id = app.amend(Session::new_log)?;
         app.add(LogEntry::of_file(id, name, Some(path), kind), true)?;

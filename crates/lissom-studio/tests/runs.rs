@@ -104,12 +104,60 @@ fn a_file_remains_while_a_run_of_it_is_used() {
     let state = remove(first);
     assert_eq!(names(&state).len(), 3);
     assert!(state["logs"][0]["problem"].is_null(), "{}", state["logs"][0]);
-    // They are the file again, with its column of runs.
+    // They are the file again.
     let state = put_runs(&client, state["logs"][1]["id"].as_u64().unwrap(), false);
     assert_eq!(names(&state), ["all.csv"]);
-    assert_eq!(state["setup"]["run"], "trial");
     remove(state["logs"][0]["id"].as_u64().unwrap());
     assert!(!state_folder.join("logs/all.csv").exists());
+}
+
+#[test]
+fn what_is_said_about_a_file_holds_for_its_runs() {
+    let folder = tempdir().unwrap();
+    let client = Client::new(&options(&folder.path().join("state")));
+    let text = table(folder.path());
+    client.send("PUT", "/api/files/all.csv", text.as_bytes());
+    let trim = json!({ "log": 1, "skip": "1 s", "until": "", "leave_out": [] });
+    client.setup(|setup| {
+        setup["torque_constant"] = json!("0.05 N*m/A");
+        setup["left_out"] = json!([1]);
+        setup["trims"] = json!([trim]);
+    });
+    let state = put_runs(&client, 1, true);
+    let ids: Vec<&Value> = state["logs"].as_array().unwrap().iter().map(|log| &log["id"]).collect();
+    assert_eq!(state["setup"]["left_out"], json!(ids));
+    let trims = state["setup"]["trims"].as_array().unwrap();
+    assert!(trims.len() == 4 && trims.iter().all(|trim| trim["skip"] == "1 s"), "{trims:?}");
+    let state = put_runs(&client, ids[2].as_u64().unwrap(), false);
+    let whole = &state["logs"][0]["id"];
+    assert_eq!(state["setup"]["left_out"], json!([whole]));
+    assert_eq!(state["setup"]["trims"][0]["log"], *whole);
+    assert_eq!(state["setup"]["torque_constant"], "0.05 N*m/A");
+}
+
+#[test]
+fn taking_groups_apart_keeps_what_is_said_about_other_logs() {
+    let folder = tempdir().unwrap();
+    let client = Client::new(&options(folder.path()));
+    let column = |scale: f64| (0..100).map(|k| scale * f64::from(k)).collect::<Vec<f64>>();
+    let run = || json!({ "t": column(0.01), "i": column(0.2), "q": column(0.1) });
+    let groups = json!({ "a": run(), "b": run() }).to_string();
+    assert_eq!(client.send("PUT", "/api/files/groups.json", groups.as_bytes()).status, 200);
+    let rows = (0..100).map(|k| format!("{},{},{}\n", 0.01 * f64::from(k), k % 7, k * k));
+    let log = format!("t [s],i [A],q [rad]\n{}", rows.collect::<String>());
+    assert_eq!(client.send("PUT", "/api/files/log.csv", log.as_bytes()).status, 200);
+    client.setup(|setup| {
+        setup["left_out"] = json!([1]);
+        setup["gear_ratio"] = json!("50");
+        setup["trims"] = json!([{ "log": 2, "skip": "0.1 s", "until": "", "leave_out": [] }]);
+    });
+    let before = client.state()["setup"].clone();
+    let state = put_runs(&client, 1, true);
+    assert_eq!(names(&state), ["groups.json::a", "groups.json::b", "log.csv"]);
+    for key in ["gear_ratio", "trims", "motor", "command"] {
+        assert_eq!(state["setup"][key], before[key], "{key}");
+    }
+    assert_eq!(state["setup"]["left_out"].as_array().unwrap().len(), 2);
 }
 
 #[test]

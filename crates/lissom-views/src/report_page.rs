@@ -248,7 +248,8 @@ fn in_words(result: &ResultFile, rows: &[ParameterRow]) -> String {
     let count = |severity| result.findings.iter().filter(|f| f.severity == severity).count();
     let runs = counted(result.runs.len(), "run");
     let what = if given.is_empty() {
-        format!("{runs} do not determine friction and inertia")
+        let verb = if result.runs.len() == 1 { "does" } else { "do" };
+        format!("{runs} {verb} not determine friction and inertia")
     } else {
         format!("{}, from {runs}", given.join(", "))
     };

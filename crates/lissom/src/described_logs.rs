@@ -44,7 +44,11 @@ impl DescribedLogs {
     ) -> Result<Self, Error> {
         let draft = CampaignDraft::new(&first, logs, said)?;
         let mut files = LastFile::default();
-        for other in logs.iter().skip(1).map(|other| folder.join(other)) {
+        for (index, other) in logs.iter().map(|other| folder.join(other)).enumerate() {
+            // The first log has others in it where its path fits several groups.
+            if index == 0 && LogPath::of(&other).group.is_none() {
+                continue;
+            }
             let content = files.content(&LogPath::of(&other), &said.text_options());
             first.same_units(&other, content.map_err(Error::from)?)?;
         }

@@ -108,6 +108,13 @@ pub enum Note {
         /// What it was [rad or m].
         value: f64,
     },
+    /// Rows without a value in the column of runs were not used.
+    RowsWithoutRun {
+        /// Their number.
+        count: usize,
+        /// Their share of all rows of the file.
+        share: f64,
+    },
     /// The log had too many rows. Each sample is now made of several of them.
     Thinned {
         /// Number of rows of the log per sample.

@@ -110,6 +110,9 @@ fn load_run(
             if factor > 1 {
                 run = run.with_note(Note::Thinned { factor });
             }
+            if let Some((count, share)) = spec.rows_without_run {
+                run = run.with_note(Note::RowsWithoutRun { count, share });
+            }
             if spec.trim.skip_s > 0.0 {
                 run = run.with_note(Note::HeadSkipped { seconds: spec.trim.skip_s });
             }

@@ -23,6 +23,8 @@ pub(super) struct RunSpec {
     pub(super) tip_files: Vec<PathBuf>,
     /// Its part of the file, if the file has several runs.
     pub(super) part: Option<LogPart>,
+    /// Rows of the file that are of no run, and their share; with the first of its runs.
+    pub(super) rows_without_run: Option<(usize, f64)>,
 }
 
 impl RunSpec {
@@ -42,6 +44,7 @@ impl RunSpec {
             motor_file: None,
             tip_files: Vec::new(),
             part: None,
+            rows_without_run: None,
         }
     }
 }
@@ -90,6 +93,7 @@ fn run(value: &Value<'_>, skip_s: Option<f64>) -> Result<RunSpec, ConfigError> {
         motor_file: motor_file.map(PathBuf::from),
         tip_files,
         part: None,
+        rows_without_run: None,
     })
 }
 

@@ -2,7 +2,7 @@
 
 use std::fmt::Write as _;
 
-use lissom_core::record::Note;
+use lissom_core::record::{Note, Run};
 
 use super::campaign_tests::{folder, read_logs};
 use super::{CampaignReader, read_campaign};
@@ -58,7 +58,7 @@ fn a_column_of_words_names_the_runs_or_the_joints() {
     assert!(error.ends_with("the groups are \"joint=elbow\", \"joint=wrist\""), "{error}");
     let both = format!("{HEAD}{MOTOR}run = \"joint\"\n[[runs]]\nfile = \"a.csv\"\n");
     let file = read_logs(&both, &[("a.csv", &text)]).unwrap();
-    let names: Vec<&str> = file.campaign.runs.iter().map(lissom_core::record::Run::name).collect();
+    let names: Vec<&str> = file.campaign.runs.iter().map(Run::name).collect();
     assert_eq!(names, ["a.csv joint elbow", "a.csv joint wrist"]);
 }
 
@@ -153,4 +153,22 @@ fn the_header_of_a_text_can_be_stated() {
     let error = stated("header_row = 300").unwrap_err().to_string();
     assert!(error.contains("a.csv"), "{error}");
     assert!(stated("header_row = 0").is_err());
+}
+
+#[test]
+fn rows_between_runs_are_counted() {
+    let mut text = String::from("n,t,i,q\n");
+    for row in 0..400 {
+        let name = ["first", "", "02", ""][row / 100];
+        let _ = writeln!(text, "{name},{:.3},{row},{row}", 0.002 * (row % 100) as f64);
+    }
+    let all = format!("{HEAD}{MOTOR}run = \"n\"\n[[runs]]\nfile = \"a.csv\"\n");
+    let file = read_logs(&all, &[("a.csv", &text)]).unwrap();
+    let notes: Vec<&[Note]> = file.campaign.runs.iter().map(Run::notes).collect();
+    assert_eq!(notes, [&[Note::RowsWithoutRun { count: 200, share: 0.5 }][..], &[]]);
+    // A number may be written in another way.
+    let one = format!("{HEAD}{MOTOR}[[runs]]\nfile = \"a.csv::n=2.0\"\n");
+    let file = read_logs(&one, &[("a.csv", &text)]).unwrap();
+    let [run] = &file.campaign.runs[..] else { panic!("one run") };
+    assert_eq!((run.len(), run.motor()[0]), (100, 200.0));
 }

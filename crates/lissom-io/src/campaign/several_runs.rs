@@ -27,9 +27,12 @@ pub(super) fn of_specs(
         };
         let several = groups.len() > 1;
         for group in groups {
-            let parts = match run {
-                Some(column) => group.by_run(column)?,
-                None => vec![group],
+            let (parts, mut without) = match run {
+                Some(column) => {
+                    let (parts, count, share) = group.by_run(column)?;
+                    (parts, (count > 0).then_some((count, share)))
+                }
+                None => (vec![group], None),
             };
             let only = !several && run.is_none();
             runs.extend(parts.into_iter().map(|part| {
@@ -38,7 +41,7 @@ pub(super) fn of_specs(
                 } else {
                     format!("{} {}", spec.title(), part.name)
                 };
-                RunSpec { name, part: Some(part), ..spec.clone() }
+                RunSpec { name, part: Some(part), rows_without_run: without.take(), ..spec.clone() }
             }));
         }
     }

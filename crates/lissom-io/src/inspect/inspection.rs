@@ -182,21 +182,22 @@ fn contradictions(
 }
 
 impl Inspection {
-    /// Refuses another log, whose file has this content, if a channel of the same name has another unit.
+    /// Refuses another log, whose file has this content, if a channel of the same name has another unit in one of its runs.
     ///
     /// # Errors
     /// [`DraftError::OtherUnit`] with the first such channel; [`Error::Log`] if no group of the file fits.
     pub fn same_units(&self, other: &Path, content: Arc<LogData>) -> Result<(), Error> {
         let text = |unit: Option<StatedUnit>| unit.map(|u| u.text);
-        let data = LogPath::of(other).parts_of(content)?.swap_remove(0).data;
-        for channel in self.channels.iter().filter(|c| !c.name.is_empty()) {
+        let parts = LogPath::of(other).parts_of(content)?;
+        let named = self.channels.iter().filter(|c| !c.name.is_empty());
+        for (channel, part) in named.flat_map(|c| parts.iter().map(move |part| (c, part))) {
             let named = |c: &&Channel| bare_name(&c.name) == channel.name;
-            let Some(same) = data.channels.iter().find(named) else { continue };
+            let Some(same) = part.data.channels.iter().find(named) else { continue };
             let (unit, of_other) = (text(channel.unit.clone()), text(stated_unit(same)));
             if unit != of_other {
                 let stated = |unit: Option<String>| unit.unwrap_or_else(|| "not stated".to_owned());
                 return Err(Error::Draft(DraftError::OtherUnit {
-                    file: other.display().to_string(),
+                    file: part.label.clone(),
                     channel: channel.name.clone(),
                     unit: stated(of_other),
                     of_first: format!("in {} it is {}", self.file.display(), stated(unit)),

@@ -100,7 +100,7 @@ impl LogPath {
         if found.is_empty()
             && let Some((column, value)) = group.split_once('=')
         {
-            found = rows_with(&file, &data, column.trim(), value.trim())?;
+            found = rows_with(&file, &data, column, value)?;
         }
         if found.is_empty() {
             return Err(LogError::NoGroup { file, group: group.clone(), groups: groups(&data) });
@@ -114,23 +114,30 @@ impl LogPath {
     }
 }
 
-/// The rows that have this value in a column, as `COLUMN=VALUE`.
+/// The rows that have this value in a column, as `COLUMN=VALUE`. Where no value is the same text, blanks around it do not
+/// count, or else how a number is written.
 fn rows_with(
     file: &str,
     data: &LogData,
     column: &str,
     value: &str,
 ) -> Result<Vec<(String, LogData)>, LogError> {
+    let column = column.trim();
     let named = place(file, &ColumnRef::Name(column.to_owned()), data);
     let numbered = column.parse().ok().map(|number| place(file, &ColumnRef::Number(number), data));
     let channel = named.or_else(|error| numbered.unwrap_or(Err(error)))?;
     let Some(parts) = data.by_value(channel) else {
         return Err(LogError::RunNumbers { file: file.to_owned(), column: column.to_owned() });
     };
-    let is_value = |part: &(String, LogData)| {
-        part.0 == value || value.parse().is_ok_and(|number: f64| part.0.parse() == Ok(number))
+    let is_number = |name: &str| {
+        value.trim().parse().is_ok_and(|number: f64| name.trim().parse() == Ok(number))
     };
-    let found: Vec<_> = parts.iter().filter(|part| is_value(part)).cloned().collect();
+    let alike: [&dyn Fn(&str) -> bool; 3] =
+        [&|name| name == value, &|name| name.trim() == value.trim(), &is_number];
+    let all = |is_value: &dyn Fn(&str) -> bool| -> Vec<_> {
+        parts.iter().filter(|(name, _)| is_value(name)).cloned().collect()
+    };
+    let found = alike.into_iter().map(all).find(|found| !found.is_empty()).unwrap_or_default();
     if found.is_empty() {
         let values = parts.into_iter().map(|(value, _)| format!("{column}={value}")).collect();
         let group = format!("{column}={value}");
@@ -140,11 +147,11 @@ fn rows_with(
 }
 
 impl LogPart {
-    /// Its rows as one part for each value in a column, a number or a word.
+    /// Its rows as one part for each value in a column, a number or a word; and the number and share of rows without a value.
     ///
     /// # Errors
     /// [`LogError::NoColumn`] and others if the column cannot be found; [`LogError::RunNumbers`] if it does not name runs.
-    pub(crate) fn by_run(&self, column: &ColumnRef) -> Result<Vec<Self>, LogError> {
+    pub(crate) fn by_run(&self, column: &ColumnRef) -> Result<(Vec<Self>, usize, f64), LogError> {
         let channel = place(&self.label, column, &self.data)?;
         let Some(found) = self.data.by_value(channel) else {
             return Err(LogError::RunNumbers {
@@ -165,6 +172,10 @@ impl LogPart {
             let label = format!("{} ({word} {value})", self.label);
             Self { label, name, data: Arc::new(data) }
         };
-        Ok(found.into_iter().map(part).collect())
+        let parts: Vec<Self> = found.into_iter().map(part).collect();
+        let rows_of = |part: &Self| part.data.channels.first().map_or(0, |c| c.values.len());
+        let rows = self.data.channels[channel].values.len();
+        let without = rows - parts.iter().map(rows_of).sum::<usize>();
+        Ok((parts, without, without as f64 / rows as f64))
     }
 }

@@ -122,6 +122,13 @@ pub enum LogFinding {
         /// Number of jumps.
         count: usize,
     },
+    /// Rows without a value in the column of runs are not used.
+    RowsWithoutRun {
+        /// Their number.
+        count: usize,
+        /// Their share of all rows of the file.
+        share: f64,
+    },
     /// Single wrong readings are replaced.
     SpikesReplaced {
         /// Name of the channel.
@@ -188,6 +195,7 @@ impl From<&Note> for LogFinding {
             }
             Note::SpeedIntegrated => Self::SpeedIntegrated,
             Note::TurnsRemoved { count } => Self::TurnsRemoved { count },
+            Note::RowsWithoutRun { count, share } => Self::RowsWithoutRun { count, share },
             Note::SpikesReplaced { ref channel, count, at_s, value } => {
                 Self::SpikesReplaced { channel: channel.clone(), count, at_s, value }
             }
@@ -255,6 +263,11 @@ impl fmt::Display for LogFinding {
                 "{} of one turn {} removed from the angles: the encoder starts again after each turn",
                 counted(*count, "jump", "jumps"),
                 if *count == 1 { "is" } else { "are" }
+            ),
+            Self::RowsWithoutRun { count, share } => write!(
+                f,
+                "{count} rows of the file, {:.2} % of all, have no value in the column of runs: they are not used",
+                1e2 * share
             ),
             Self::SpikesReplaced { channel, count: 1, at_s, value } => write!(
                 f,
@@ -438,6 +451,7 @@ impl Describe for LogFinding {
             | Self::OtherClock { .. }
             | Self::SpeedIntegrated
             | Self::TurnsRemoved { .. }
+            | Self::RowsWithoutRun { .. }
             | Self::SpikesReplaced { .. }
             | Self::Thinned { .. }
             | Self::HeadSkipped { .. }
@@ -471,6 +485,7 @@ impl Describe for LogFinding {
             | Self::OtherClock { .. }
             | Self::SpeedIntegrated
             | Self::TurnsRemoved { .. }
+            | Self::RowsWithoutRun { .. }
             | Self::SpikesReplaced { .. }
             | Self::Thinned { .. }
             | Self::HeadSkipped { .. }
@@ -514,6 +529,9 @@ impl Describe for LogFinding {
                 "nothing to do; a log that also has the angle shows slow motion better"
             }
             Self::TurnsRemoved { .. } => "nothing to do",
+            Self::RowsWithoutRun { .. } => {
+                "nothing to do if these rows are between runs; else complete the column"
+            }
             Self::SpikesReplaced { .. } => {
                 "nothing to do; the cause is a lost count or a fault of the connection"
             }

@@ -148,9 +148,19 @@ fn departs(
              model lacks an effect that moves the axis"
         ),
         (None, None) => format!(
-            "in simulations over {window_s:.2} s the error of the motion is {noise_ratio:.0} times the sensors' noise, and no \
-             smaller over shorter times: the model lacks an effect that moves the axis, or the fit did not converge"
+            "in simulations over {window_s:.2} s the error of the motion is {} the sensors' noise, and no \
+             smaller over shorter times: the model lacks an effect that moves the axis, or the fit did not converge",
+            times(noise_ratio)
         ),
+    }
+}
+
+/// A ratio in words.
+fn times(ratio: f64) -> String {
+    match ratio {
+        ..10.0 => format!("{ratio:.1} times"),
+        10.0..1e3 => format!("{ratio:.0} times"),
+        _ => "more than 1000 times".to_owned(),
     }
 }
 

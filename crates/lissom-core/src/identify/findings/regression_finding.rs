@@ -30,6 +30,8 @@ pub enum RegressionFinding {
         residual_share: Option<f64>,
         /// Whether another finding reports the reason.
         explained: bool,
+        /// Whether ordinary least squares give the estimates.
+        by_least_squares: bool,
     },
     /// There are too few strokes to show how friction varies from one stroke to the next.
     FewPhases {
@@ -245,14 +247,23 @@ fn few_phases(f: &mut fmt::Formatter<'_>, phases: usize, variation: Option<f64>)
 impl fmt::Display for RegressionFinding {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
-            Self::RegressionRefused { residual_share: Some(share), .. } => write!(
-                f,
-                "{:.0} % of the windowed torque is not explained by the motor's equation: the regression gives no estimates",
-                100.0 * share
-            ),
-            Self::RegressionRefused { residual_share: None, .. } => f.write_str(
-                "too few slip phases are long enough for a window: the regression gives no estimates",
-            ),
+            Self::RegressionRefused { residual_share, by_least_squares, .. } => {
+                match residual_share {
+                    Some(share) => write!(
+                        f,
+                        "{:.0} % of the windowed torque is not explained by the motor's equation",
+                        100.0 * share
+                    )?,
+                    None => f.write_str("too few slip phases are long enough for a window")?,
+                }
+                f.write_str(": the regression gives no estimates")?;
+                if *by_least_squares {
+                    f.write_str(
+                        ". Those of ordinary least squares may be wrong by many of their standard errors, which count only noise",
+                    )?;
+                }
+                Ok(())
+            }
             Self::FewPhases { phases, counted } => few_phases(f, *phases, *counted),
             Self::GravityUnseparated { with, correlation } => write!(
                 f,
@@ -404,7 +415,7 @@ impl Describe for RegressionFinding {
                 "first add the missing term that another finding reports"
             }
             Self::RegressionRefused { .. } => {
-                "use longer moves in both directions at a measured current; measure the tip of a flexible beam; check \
+                "use longer moves in both directions at a measured current, with more samples in each; measure the tip of a flexible beam; check \
                  columns, units and signs"
             }
             Self::FewPhases { .. } => "log four strokes or more in each direction",

@@ -84,7 +84,8 @@ fn departs(evidence: &Evidence<'_>, oe: &OutputError) -> Option<Finding> {
     let hides_mode = oe.beyond_noise < oe.accepted_residual && !oe.sees_modes;
     Some(Finding::new(OutputErrorFinding::ReplayDeparts {
         window_s: last.window_s,
-        grown_from: (grown > RESIDUAL_GROWN).then_some((first.window_s, grown)),
+        grown_from: (grown > RESIDUAL_GROWN && last.window_s > first.window_s)
+            .then_some((first.window_s, grown)),
         noise_ratio: oe.beyond_noise,
         used: oe.stands(),
         agree_s: oe.stages.last().map(|stage| stage.window_s).filter(|_| hides_mode),

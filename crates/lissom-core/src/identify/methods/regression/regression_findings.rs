@@ -34,7 +34,9 @@ pub(crate) fn findings(evidence: &Evidence<'_>, chosen: &Chosen) -> Vec<Finding>
         findings.extend(missing.map(term));
         let residual_share = evidence.methods.regression_residual;
         let explained = missing.is_some();
-        let refused = RegressionFinding::RegressionRefused { residual_share, explained };
+        let by_least_squares = chosen.method == Some(Method::LeastSquares);
+        let refused =
+            RegressionFinding::RegressionRefused { residual_share, explained, by_least_squares };
         findings.push(Finding::new(refused));
         return findings;
     };
