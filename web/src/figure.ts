@@ -285,8 +285,8 @@ export class Figure implements Follower {
       },
       series: [{}, { paths: () => null, points: { show: false } }],
       axes: [
-        { ...axis, values: ticks, show: true, size: isLast ? LABELS : 8, ...(isLast ? { label: shownAxis(this.data.x, units).label, labelSize: 20, labelFont: LABEL_FONT } : { values: () => [] }) },
-        { ...axis, values: ticks, label: y.label, labelSize: 22, labelFont: LABEL_FONT, size: 62, ...(panel.y.quantity === "degrees" ? { incrs: DEGREES } : {}) },
+        { ...axis, ...(this.log ? { splits: logSplits } : {}), values: ticks, show: true, size: isLast ? LABELS : 8, ...(isLast ? { label: shownAxis(this.data.x, units).label, labelSize: 20, labelFont: LABEL_FONT } : { values: () => [] }) },
+        { ...axis, ...(y.log ? { splits: logSplits } : {}), values: ticks, label: y.label, labelSize: 22, labelFont: LABEL_FONT, size: 62, ...(panel.y.quantity === "degrees" ? { incrs: DEGREES } : {}) },
       ],
       padding: [8, 14, 0, 0],
       hooks: {
@@ -407,6 +407,22 @@ export class Figure implements Follower {
     });
     this.readout.textContent = parts.join(" · ");
   }
+}
+
+/** Where a logarithmic axis has lines: at 1 to 9 times each power of ten, or evenly if that is too coarse. */
+function logSplits(_: uPlot, __: number, low: number, high: number): number[] {
+  const found: number[] = [];
+  for (let power = Math.floor(Math.log10(low)); power <= Math.log10(high); power++) {
+    for (let digit = 1; digit <= 9; digit++) {
+      const value = Number(`${digit}e${power}`);
+      if (value >= low && value <= high) found.push(value);
+    }
+  }
+  if (found.length >= 3) return found;
+  const power = 10 ** Math.floor(Math.log10((high - low) / 3));
+  const step = power * ([5, 2].find((factor) => factor * power * 3 <= high - low) ?? 1);
+  const first = Math.ceil(low / step);
+  return Array.from({ length: Math.floor(high / step) - first + 1 }, (_unused, k) => (first + k) * step);
 }
 
 /** Which ticks of a logarithmic axis have a number: of many, those at 1, 2 and 5, or only the powers of ten. */

@@ -9,6 +9,7 @@ use axum::http::{HeaderName, StatusCode};
 use axum::response::{IntoResponse, Response};
 use axum::routing::{delete, get, post, put};
 use axum::{Json, Router, middleware};
+use lissom_io::result::ComparisonError;
 use lissom_io::{ComparedFile, read_result};
 use lissom_views::compare_page;
 use serde::{Deserialize, Serialize};
@@ -346,7 +347,13 @@ async fn compare(
             let list = read_result(&app.folder.result(result.id).join("result.json"))?;
             lists.push((format!("{} ({})", result.name, result.id), list));
         }
-        let found = ComparedFile::of(&lists).map_err(lissom_io::Error::from)?;
+        let found = ComparedFile::of(&lists).map_err(|error| match error {
+            ComparisonError::Copy { file, other } => Problem::input(
+                format!("{other} and {file} have the same estimates, to the last digit"),
+                Some("what differs between them changes no estimate".to_owned()),
+            ),
+            error => lissom_io::Error::from(error).into(),
+        })?;
         Ok(compare_page::page("Comparison", &found).to_fragment())
     })
     .await?;

@@ -12,8 +12,9 @@ use lissom_report::{Axis, LinePlot, Role, StackedPlot, Trace, TraceStyle};
 const PERIODS: f64 = 1.25;
 /// Sample times are the same within this share.
 const SAME_TIME: f64 = 1e-9;
-/// Colours of the terms of a torque.
-const TERMS: [Role; 4] = [Role::Other(0), Role::Other(1), Role::Other(2), Role::Other(3)];
+/// Colours of the terms of a torque; logs of an arm with a beam have no gravity.
+const TERMS: [Role; 5] =
+    [Role::Other(0), Role::Other(1), Role::Other(2), Role::Other(3), Role::Other(3)];
 
 /// Figures of one kind, each with the name of its run.
 pub(crate) type ByRun = Vec<(String, StackedPlot)>;
@@ -121,6 +122,7 @@ fn balance(names: UnitNames, torque: &TorqueRun) -> LinePlot {
         ("viscous friction", &torque.terms.viscous_nm),
         ("other friction", &torque.terms.dry_nm),
         ("beam", &torque.terms.coupling_nm),
+        ("gravity", &torque.terms.gravity_nm),
     ];
     for ((label, values), role) in terms.into_iter().zip(TERMS) {
         if values.iter().any(|value| *value != 0.0) {

@@ -154,8 +154,9 @@ fn motion_section(
             page = page.heading("Measured and predicted motion").gallery(
                 "run",
                 &motion,
-                "The motion that the identified arm makes of the logged command, and the terms of the torque, averaged with a \
-                 short window; no prediction while the motor rests. The run with the largest residual torque comes first.",
+                "The motion that the identified arm makes of the logged command: it starts from a fitted state, again after the \
+                 longest time over which all runs fit. The terms of the torque are averaged with a short window; there is no \
+                 prediction of it while the motor rests. The run with the largest residual torque comes first.",
             );
         }
         let cycles = own_logs::cycle_figures(campaign, result, own);
@@ -172,7 +173,8 @@ fn motion_section(
                 "plot",
                 &residuals,
                 "The residual of a complete model is noise: it is not correlated with itself or with the command beyond the \
-                 bands.",
+                 bands. A simulated position adds up small errors of the torque: bars near one at all lags show slow drift, and \
+                 the figures of the motion show how large it is.",
             );
         }
     }

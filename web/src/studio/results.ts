@@ -136,8 +136,8 @@ export class Compare {
     const key = this.chosen.join(",");
     if (key === this.key) return;
     this.key = key;
-    if (this.chosen.length < 2) put(this.place, h("p", {}, "Choose two or more."));
-    else void this.load(key);
+    put(this.place, ...(this.chosen.length < 2 ? [h("p", {}, "Choose two or more.")] : []));
+    if (this.chosen.length >= 2) void this.load(key);
   }
 
   private async load(key: string): Promise<void> {

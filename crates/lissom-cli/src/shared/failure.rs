@@ -119,7 +119,7 @@ impl Failure {
             }
             Self::UndescribedLog { .. } => Some(
                 "add --like campaign.toml with the campaign of the result, or describe the log in its own \
-                 campaign.toml"
+                 campaign.toml: `lissom init LOG`, with the options of the identification, writes one"
                     .to_owned(),
             ),
             Self::Validate { source, .. } => Some(

@@ -47,6 +47,9 @@ pub(super) fn refuse_the_unknown(evidence: &Evidence<'_>, chosen: &mut Chosen) -
         findings.push(EstimateFinding::OthersDoubtful);
     }
     let friction = &mut drive.friction;
+    if friction.viscous.is_none() {
+        friction.viscous_by_direction = None;
+    }
     if regression && friction.coulomb.is_some() && friction.offset.is_none() {
         findings.push(EstimateFinding::NotSeparable { parameter: JudgedParameter::Offset });
     }

@@ -35,12 +35,10 @@ impl Separability {
             let if_so = if self.doubted_by.is_empty() { "" } else { ", if the model is complete" };
             let offset = self.parameters.iter().any(|f| f.parameter == ArmParameter::Offset);
             let of_what = if offset { " (the offset in percent of Coulomb friction)" } else { "" };
-            let modes =
-                self.parameters.iter().any(|f| matches!(f.parameter, ArmParameter::Frequency(_)));
-            let all = if modes { "All parameters" } else { "All parameters of friction and drive" };
+            let names: Vec<String> = self.parameters.iter().map(|p| p.parameter.name()).collect();
             return Some(format!(
-                "{all} have a standard error of 1 % or less{of_what}{if_so}. Least certain: {}, standard error {}, 95 % interval \
-                 ±{}.",
+                "Standard errors of 1 % or less: {}{of_what}{if_so}. Least certain: {}, standard error {}, 95 % interval ±{}.",
+                names.join(", "),
                 least.parameter.name(),
                 percent(least.std),
                 percent(NORMAL_95 * least.std)

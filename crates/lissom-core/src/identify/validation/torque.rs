@@ -54,7 +54,7 @@ impl TorquePrediction {
 pub struct TorqueRun {
     /// Index of the run.
     pub run: usize,
-    /// Relative error ‖logged − predicted‖/‖logged‖ of this run \[1\]; `None` if no window counts.
+    /// Relative error ‖logged − predicted‖/‖logged − gravity‖ of this run \[1\]; `None` if no window counts.
     pub relative_error: Option<f64>,
     /// Middle of each window, since the first sample of the run \[s\].
     pub time_s: Vec<f64>,
@@ -77,6 +77,8 @@ pub struct TorqueTerms {
     pub dry_nm: Vec<f64>,
     /// Torque between motor and beam.
     pub coupling_nm: Vec<f64>,
+    /// Gravity of an unbalanced load.
+    pub gravity_nm: Vec<f64>,
 }
 
 /// A part of a run in which the motor moves in one direction.
@@ -146,17 +148,18 @@ impl RunRows {
             run: self.run,
             relative_error: (power > 0.0).then(|| (left / power).sqrt()),
             time_s: self.rows.iter().map(|r| r.time_s).collect(),
-            logged_nm: self.rows.iter().map(|r| r.logged).collect(),
+            logged_nm: self.rows.iter().map(|r| r.logged + r.terms.gravity).collect(),
             predicted_nm: self
                 .rows
                 .iter()
-                .map(|r| if r.counts { r.predicted } else { f64::NAN })
+                .map(|r| if r.counts { r.predicted + r.terms.gravity } else { f64::NAN })
                 .collect(),
             terms: TorqueTerms {
                 inertia_nm: self.rows.iter().map(|r| r.terms.inertia).collect(),
                 viscous_nm: self.rows.iter().map(|r| r.terms.viscous).collect(),
                 dry_nm: self.rows.iter().map(|r| r.terms.dry).collect(),
                 coupling_nm: self.rows.iter().map(|r| r.terms.coupling).collect(),
+                gravity_nm: self.rows.iter().map(|r| r.terms.gravity).collect(),
             },
         }
     }

@@ -75,7 +75,9 @@ impl Coupling {
 /// One place of the window.
 pub(super) struct Row {
     pub(super) time_s: f64,
+    /// Without gravity.
     pub(super) logged: f64,
+    /// Without gravity.
     pub(super) predicted: f64,
     pub(super) velocity: f64,
     pub(super) counts: bool,
@@ -88,6 +90,7 @@ pub(super) struct Terms {
     pub(super) viscous: f64,
     pub(super) dry: f64,
     pub(super) coupling: f64,
+    pub(super) gravity: f64,
 }
 
 impl Row {
@@ -280,6 +283,8 @@ struct WindowedRun<'a> {
     resting: Vec<f64>,
     /// Friction beside the mean viscous one at every sample.
     bent: Vec<f64>,
+    /// Torque of gravity at every sample; empty without a load.
+    gravity: Vec<f64>,
     unread: Vec<usize>,
     shown: Vec<Vec<f64>>,
 }
@@ -300,8 +305,11 @@ impl<'a> WindowedRun<'a> {
         let samples = || 0..run.len();
         let resting = samples().map(|i| if speed.moves(i) { 0.0 } else { 1.0 }).collect();
         let bent = samples().map(|i| predictor.bent(run, &speed, i)).collect();
+        let gravity = predictor.arm.gravity.map_or_else(Vec::new, |load| {
+            run.motor().iter().map(|angle_rad| load.torque_nm(*angle_rad)).collect()
+        });
         let (unread, shown) = (predictor.unread(index), predictor.shown(index));
-        Some(Self { predictor, index, run, kernel, speed, resting, bent, unread, shown })
+        Some(Self { predictor, index, run, kernel, speed, resting, bent, gravity, unread, shown })
     }
 
     fn windows(&self) -> usize {
@@ -323,6 +331,7 @@ impl<'a> WindowedRun<'a> {
             viscous: mean * velocity,
             dry: kernel.mean_of(&self.bent[k..]),
             coupling: predictor.coupling_torque(self.index, kernel, &self.shown, k),
+            gravity: if self.gravity.is_empty() { 0.0 } else { kernel.mean_of(&self.gravity[k..]) },
         };
         let predicted = terms.inertia + terms.viscous + terms.dry + arm.offset_nm + terms.coupling;
         let row = Row {
