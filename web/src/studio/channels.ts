@@ -93,7 +93,8 @@ export class Channels {
   private row(row: Row, log: InspectedLog): HTMLElement {
     const guess = log.roles.find(({ role }) => role === row.role);
     const guessed = guess && log.channels.find(({ number }) => number === guess.channel);
-    const none = row.role === "tip" ? "none: remove" : row.role === "speed" ? "none" : guessed ? `found: ${label(guessed)}` : "choose…";
+    const found = row.role === "speed" ? "none" : "choose…";
+    const none = row.role === "tip" ? "none: remove" : guessed ? `found: ${label(guessed)}` : found;
     const channel = h("select", { id: `${row.id}-channel`, "aria-label": `${row.label}: channel` }, new Option(none, ""));
     for (const each of log.channels) channel.append(new Option(label(each), each.asked));
     const picked = log.channels.find((each) => [each.asked, String(each.number)].includes(row.pick?.column ?? ""));
@@ -110,7 +111,7 @@ export class Channels {
     });
     const unit = this.unit(row, shown);
     const replaced = row.role === "time" && this.store.state.setup.sample_time !== "";
-    const words = replaced ? "not used: a sample time is given below" : !row.pick && guess && row.role !== "speed" ? guess.why : "";
+    const words = replaced ? "not used: a sample time is given below" : !row.pick && guess ? (row.role === "speed" ? "compared if it is the rate of the motor's angle" : guess.why) : "";
     const why = words ? h("span", { class: "why" }, words) : null;
     const parts = shown ? [unit, scale, ...(row.more ?? [])] : [...(row.more ?? [])];
     const name = h("label", { for: `${row.id}-channel` }, row.label);

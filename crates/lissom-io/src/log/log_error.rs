@@ -509,13 +509,17 @@ fn of_speed(ratio: f64, correlation: f64) -> &'static str {
         ),
         (57.296, "one of them seems to be in deg, the other in rad: check both units"),
         (0.017_453, "one of them seems to be in deg, the other in rad: check both units"),
+        (1e3, "the time stamps seem to be in ms: check their unit"),
+        (1e6, "the time stamps seem to be in us: check their unit"),
         (TAU, "one of them seems to be in turns, the other in rad: check both units"),
         (1.0 / TAU, "one of them seems to be in turns, the other in rad: check both units"),
     ];
     let near = |(factor, _): &&(f64, &str)| (ratio / factor - 1.0).abs() < 0.05;
     match factors.iter().find(near) {
         Some((_, hint)) if correlation.abs() > 0.9 => hint,
-        _ => "check columns, units and signs of both, and whether there is a gear between them",
+        _ => {
+            "check the unit of the time stamps, columns, units and signs of both, and whether there is a gear between them"
+        }
     }
 }
 
