@@ -51,7 +51,7 @@ pub(crate) fn take_apart(app: &App, revision: u64, id: u64) -> Result<(), Proble
     let log = session.log(id).ok_or_else(|| Problem::not_found("log"))?;
     let inspection = app.inspection(&session, log)?;
     let by = runs_by(&session.setup, log, &inspection).ok_or_else(|| {
-        let hint = "choose the column that tells runs apart under \"How logs are read\"";
+        let hint = "choose the column with the run of each row under \"How logs are read\"";
         Problem::input(format!("{} has one run", log.name), Some(hint.to_owned()))
     })?;
     let runs = names(app, &session, log, &by)?;

@@ -225,7 +225,7 @@ export class Channels {
     for (const channel of log.channels) run.append(new Option(label(channel), channel.asked));
     run.value = setup.run;
     run.addEventListener("change", () => void this.store.say((to) => (to.run = run.value)));
-    const labels = h("div", { class: "field" }, h("label", { for: "run" }, "Column that tells runs apart"), run);
+    const labels = h("div", { class: "field" }, h("label", { for: "run" }, "Column with the run of each row"), run);
     const texts = [number("header_row", "Row with the names of the columns"), number("skip_rows", "Rows at the top to skip")];
     return h("details", {}, h("summary", {}, "How logs are read"), h("div", { class: "form" }, ...fields, labels, ...texts));
   }

@@ -96,7 +96,7 @@ export class Files {
       const apart = log.runs_by
         ? button("Take runs apart", () => this.runs(log, true), {
             id: `apart-${log.id}`,
-            title: `Each run becomes a log, to be drawn, trimmed or left out alone. Runs are told apart by: ${log.runs_by}.`,
+            title: `Each run becomes a log, to be drawn, trimmed or left out alone. Its runs are known by: ${log.runs_by}.`,
           })
         : null;
       const file = log.name.split("::")[0];

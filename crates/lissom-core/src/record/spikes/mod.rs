@@ -34,14 +34,13 @@ pub fn replace_spikes(samples: &mut [f64]) -> Vec<ReplacedReading> {
     if found.len() as f64 > most {
         return Vec::new();
     }
-    let is_inner = |sample: &usize| (1..samples.len() - 1).contains(sample);
-    let found: Vec<usize> = found.into_iter().filter(is_inner).collect();
-    let mut replace = |sample: usize| {
-        let value = samples[sample];
+    let last = samples.len().saturating_sub(1);
+    let mut replaced = Vec::new();
+    for sample in found.into_iter().filter(|sample| (1..last).contains(sample)) {
+        replaced.push(ReplacedReading { sample, value: samples[sample] });
         samples[sample] = 0.5 * (samples[sample - 1] + samples[sample + 1]);
-        ReplacedReading { sample, value }
-    };
-    found.into_iter().map(&mut replace).collect()
+    }
+    replaced
 }
 
 /// Second differences of a channel, and what all but a twentieth of those that are not zero stay below.
