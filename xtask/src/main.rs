@@ -109,7 +109,7 @@ const RECIPES: &[Recipe] = &[
     Recipe {
         name: "fuzz",
         about: "run each fuzz target of the readers of logs for a short time",
-        takes: Takes::Arguments("seconds of each; default 5"),
+        takes: Takes::Arguments("inputs of each target; default 20000"),
         run: fuzz,
     },
     Recipe {

@@ -58,6 +58,8 @@ mod numpy;
 #[cfg(feature = "parquet")]
 mod parquet_file;
 #[cfg(feature = "parquet")]
+mod parquet_message;
+#[cfg(feature = "parquet")]
 mod parquet_pages;
 mod parts;
 mod plain_decimal;

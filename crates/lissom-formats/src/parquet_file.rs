@@ -45,7 +45,7 @@ fn damaged(error: ParquetError) -> FormatError {
 /// Reads a file.
 pub(crate) fn read(source: &Source, wanted: Wanted) -> Result<LogData, FormatError> {
     guarded(Format::Parquet, || {
-        let file = SerializedFileReader::new(Pages(source.clone())).map_err(damaged)?;
+        let file = SerializedFileReader::new(Pages::of(source)?).map_err(damaged)?;
         let mut found = Collected::of(wanted);
         let schema = file.metadata().file_metadata().schema_descr_ptr();
         for (index, column) in schema.columns().iter().enumerate() {

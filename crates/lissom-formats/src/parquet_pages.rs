@@ -1,32 +1,44 @@
 //! Parquet files for the library that reads them: a page is in memory, not the file.
 
-use std::io::{self, Read};
-
 use bytes::Bytes;
 use parquet::errors::ParquetError;
 use parquet::file::reader::{ChunkReader, Length};
 
+use crate::format_error::FormatError;
+use crate::parquet_message::check_message;
+use crate::parquet_message::layout::{FILE_META_DATA, PAGE_HEADER};
 use crate::source::Source;
 use crate::stream::Stream;
 
 /// Bytes that are read at once for the header of a page.
 const HEADER_BYTES: usize = 4096;
 
-/// A stream whose end is an error: behind the pages a file has a footer. The library that reads headers skips a list of
-/// billions of values in a damaged one value by value, also when the file has no more.
-pub(crate) struct BeforeFooter(Stream);
-
-impl Read for BeforeFooter {
-    fn read(&mut self, buffer: &mut [u8]) -> io::Result<usize> {
-        match self.0.read(buffer)? {
-            0 if !buffer.is_empty() => Err(io::ErrorKind::UnexpectedEof.into()),
-            read => Ok(read),
-        }
-    }
-}
+/// Bytes at the end of a file: the length of the footer's message, and `PAR1`.
+const TAIL_BYTES: u64 = 8;
 
 /// A file whose pages are read one by one.
-pub(crate) struct Pages(pub(crate) Source);
+pub(crate) struct Pages(Source);
+
+impl Pages {
+    /// The pages of a file whose footer's message is right.
+    pub(crate) fn of(source: &Source) -> Result<Self, FormatError> {
+        let tail = source.length().saturating_sub(TAIL_BYTES);
+        // The library says what is wrong with an end of another kind.
+        if let [a, b, c, d, b'P', b'A', b'R', b'1'] = *source.bytes(tail..u64::MAX)? {
+            let length = u32::from_le_bytes([a, b, c, d]);
+            let begin = tail.saturating_sub(u64::from(length));
+            check_message(&mut source.part(begin..tail), FILE_META_DATA)?;
+        }
+        Ok(Self(source.clone()))
+    }
+
+    /// Goes through the header of a page.
+    fn check_header(&self, start: u64) -> Result<(), ParquetError> {
+        let checked =
+            check_message(&mut self.0.stream(start).in_blocks_of(HEADER_BYTES), PAGE_HEADER);
+        checked.map_err(|error| ParquetError::General(error.to_string()))
+    }
+}
 
 impl Length for Pages {
     fn len(&self) -> u64 {
@@ -35,7 +47,7 @@ impl Length for Pages {
 }
 
 impl ChunkReader for Pages {
-    type T = BeforeFooter;
+    type T = Stream;
 
     fn get_read(&self, start: u64) -> Result<Self::T, ParquetError> {
         if start > self.len() {
@@ -44,7 +56,11 @@ impl ChunkReader for Pages {
                 "Expected to read at offset {start}, while file has length {length}"
             )));
         }
-        Ok(BeforeFooter(self.0.stream(start).in_blocks_of(HEADER_BYTES)))
+        // The library reads the end of the file, and headers of pages.
+        if start + TAIL_BYTES < self.len() {
+            self.check_header(start)?;
+        }
+        Ok(self.0.stream(start).in_blocks_of(HEADER_BYTES))
     }
 
     fn get_bytes(&self, start: u64, count: usize) -> Result<Bytes, ParquetError> {
