@@ -66,6 +66,7 @@ impl GravityLoad {
             runs: campaign.runs.iter().map(less).collect(),
             gravity: false,
             mgl_nm: None,
+            hold_assumed: campaign.hold_assumed,
         }
     }
 }

@@ -157,7 +157,7 @@ fn campaign(app: &App, session: &Session, first: Option<&Arc<Inspection>>) -> Ca
         let files: Vec<_> = session.used_logs().map(LogEntry::address).collect();
         let mut draft = CampaignDraft::new(first, &files, &said).map_err(lissom_io::Error::from)?;
         if draft.assumes_hold() {
-            said.hold_shown = Some(("measured".to_owned(), NOT_YET.to_owned()));
+            said.hold_shown = Some(("unknown".to_owned(), NOT_YET.to_owned()));
             draft = CampaignDraft::new(first, &files, &said).map_err(lissom_io::Error::from)?;
         }
         Ok::<_, Problem>(draft)

@@ -2,7 +2,7 @@
 
 use std::path::{Path, PathBuf};
 
-use lissom_core::identify::hold_shown;
+use lissom_core::identify::{HoldEvidence, hold_shown};
 use lissom_core::record::Hold;
 use lissom_io::inspect::{CampaignDraft, Description, DraftError, Inspection, inspect_with};
 use lissom_io::log::{LastFile, LogPath};
@@ -60,18 +60,30 @@ impl DescribedLogs {
         Ok(described)
     }
 
-    /// That the command is held, and why, if only the motion shows it. Logs that cannot be read show nothing here.
+    /// Whether the command is held, and why, if only the motion shows it. Logs that cannot be read show nothing here.
     fn hold_shown(&self) -> Option<(String, String)> {
         if !self.draft.assumes_hold() {
             return None;
         }
         let campaign = self.read().ok()?.campaign;
-        let found = hold_shown(&campaign).filter(|found| found.hold == Hold::Sampled)?;
-        let why = format!(
-            "as a measured command it would act {:.2} ± {:.2} samples late: it is held from one sample to the next",
-            found.delay_samples, found.delay_std_samples
-        );
-        Some(("sampled".to_owned(), why))
+        let found = hold_shown(&campaign)?;
+        let why = match (found.by, found.hold) {
+            (HoldEvidence::Delay(delay), Hold::Sampled) => format!(
+                "as a measured command it would act {:.2} ± {:.2} samples late: it is held from one sample to the next",
+                delay.value, delay.std
+            ),
+            (HoldEvidence::Delay(delay), Hold::Measured) => format!(
+                "it acts {:.2} ± {:.2} samples late, a held command would act half a sample late: it is measured",
+                delay.value, delay.std
+            ),
+            (HoldEvidence::Viscous { measured, held }, hold) => format!(
+                "viscous friction would be {measured} as a measured command, {held} as a held one: it is {}",
+                if hold == Hold::Sampled { "held from one sample to the next" } else { "measured" }
+            ),
+            _ => return None,
+        };
+        let name = if found.hold == Hold::Sampled { "sampled" } else { "measured" };
+        Some((name.to_owned(), why))
     }
 
     /// Reads the logs.

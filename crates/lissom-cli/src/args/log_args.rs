@@ -37,7 +37,7 @@ pub(crate) struct LogArgs {
     #[arg(long, value_name = "COLUMN:UNIT", value_parser = choice, group = "drive_input")]
     goal: Option<Choice>,
     /// Input commanded (sampled), or a sensor's value (measured)
-    #[arg(long, value_name = "HOLD", value_parser = ["sampled", "measured"], hide_possible_values = true)]
+    #[arg(long, value_name = "HOLD", value_parser = ["sampled", "measured", "unknown"], hide_possible_values = true)]
     hold: Option<String>,
     /// Angle, position or speed of the motor [default: found]
     #[arg(long, value_name = "COLUMN:UNIT", value_parser = choice)]

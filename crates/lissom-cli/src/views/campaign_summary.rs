@@ -32,6 +32,7 @@ pub(crate) fn campaign(names: UnitNames, campaign: &Campaign) {
     };
     let hold = match campaign.channels.command.hold {
         Hold::Sampled => "commanded, constant between samples",
+        Hold::Measured if campaign.hold_assumed => "taken as measured",
         Hold::Measured => "measured",
     };
     line(&format!(

@@ -123,12 +123,12 @@ fn hold_is_missing_or_misspelt() {
     );
     Bench::replacing("\"measured\"", "\"mesured\"").refuses(
         "error: campaign.toml, line 3: `signals.current.hold` is \"mesured\", but must be \
-         \"sampled\" or \"measured\"\n\
+         \"sampled\" or \"measured\" or \"unknown\"\n\
          hint: did you mean \"measured\"?",
     );
     Bench::replacing("\"measured\"", "\"zoh\"").refuses(
         "error: campaign.toml, line 3: `signals.current.hold` is \"zoh\", but must be \
-         \"sampled\" or \"measured\"\n\
+         \"sampled\" or \"measured\" or \"unknown\"\n\
          hint: write one of these words",
     );
 }

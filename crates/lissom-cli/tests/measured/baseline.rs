@@ -76,7 +76,7 @@ fn half(campaign: &Campaign, second: bool) -> Campaign {
         Run::new(run.name(), base, of(run.command()), of(run.motor()), tips).unwrap()
     };
     let runs = campaign.runs.iter().map(part).collect();
-    Campaign { channels: campaign.channels.clone(), runs, gravity: campaign.gravity, mgl_nm: None }
+    Campaign { runs, mgl_nm: None, ..campaign.clone() }
 }
 
 #[test]

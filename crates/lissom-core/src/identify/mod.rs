@@ -52,9 +52,9 @@ pub use methods::output_error::{
     output_error, starts, starts_by_motor, starts_by_responses,
 };
 pub use methods::regression::{
-    AngleLag, BeamRegression, ByDirection, Candidate, GravityPartner, HiddenMode, HoldShown,
-    LagShape, LeftTorque, MissingKind, MissingTerm, MotorRegression, Moved, RunDifference,
-    beam_regression, hold_shown, motor_regression,
+    AngleLag, BeamRegression, ByDirection, Candidate, GravityPartner, HiddenMode, HoldEvidence,
+    HoldShown, LagShape, LeftTorque, MissingKind, MissingTerm, MotorRegression, Moved, OtherHold,
+    RunDifference, beam_regression, hold_shown, motor_regression,
 };
 pub use methods::third_harmonic::{PairEstimate, ThirdHarmonic, mean_estimate, pair_estimate};
 pub use options::{Effort, Options};

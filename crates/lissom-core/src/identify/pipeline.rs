@@ -4,7 +4,7 @@ use thiserror::Error;
 
 use crate::identify::equivalent::{Equivalent, EquivalentData, equivalent};
 use crate::identify::estimate::{Estimate, ModeEstimate};
-use crate::identify::findings::{EquivalentFinding, Finding};
+use crate::identify::findings::{EquivalentFinding, EstimateUnits, Finding, RegressionFinding};
 use crate::identify::identified::Identified;
 use crate::identify::judge::{Evidence, Methods, conclude, slip_phase_solution, slip_phase_terms};
 use crate::identify::methods::constant_velocity;
@@ -16,7 +16,7 @@ use crate::identify::methods::output_error::{
 };
 use crate::identify::methods::regression::thresholds::FEW_PHASES;
 use crate::identify::methods::regression::{
-    BeamRegression, LagShape, MotorRegression, beam_regression,
+    BeamRegression, LagShape, MotorRegression, beam_regression, other_hold,
 };
 use crate::identify::methods::rigid_equation::rigid_equation;
 use crate::identify::methods::starting_arms::starting_arms;
@@ -142,6 +142,7 @@ pub fn identify(
     let regression_missing = any_regression.as_ref().and_then(|r| r.missing);
     let regression_residual = any_regression.as_ref().map(|r| r.relative_residual);
     let regression = any_regression.clone().filter(|r| r.relative_residual < REFUSED_TORQUE);
+    let hold = regression.as_ref().and_then(|r| assumed_hold(campaign, r));
     // What is found on slip phases is of commands that are as late as the angle.
     let lag = regression.as_ref().and_then(|r| r.lag);
     let late = lag.map(|lag| prepared.using(lag.late(prepared.used())));
@@ -228,11 +229,18 @@ pub fn identify(
     let evidence = Evidence::of(&prepared, &methods);
     let findings =
         [prepared.findings().to_vec(), steady_findings, response_findings, refused].concat();
-    let findings = findings.into_iter().chain(without_coupling).collect();
+    let findings = findings.into_iter().chain(without_coupling).chain(hold).collect();
     let conclusion = conclude(&evidence, findings);
     let models = LinearModels::of(&evidence);
     let runs = prepared.into_runs();
     Ok(Identified::new(campaign, methods, runs, points, (models, equivalent), conclusion))
+}
+
+/// What an assumed hold of the command changes.
+fn assumed_hold(campaign: &Campaign, found: &MotorRegression) -> Option<Finding> {
+    let other = campaign.hold_assumed.then(|| other_hold(campaign, found))??;
+    let units = EstimateUnits::new(&campaign.channels);
+    Some(Finding::new(RegressionFinding::HoldAssumed { other, units }))
 }
 
 /// Whether the beam's regression has a small residual, and all its modes are damped.

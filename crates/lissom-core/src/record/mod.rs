@@ -27,6 +27,8 @@ pub struct Campaign {
     pub gravity: bool,
     /// Largest torque m·g·l of that load \[N·m\], if it is known; it determines the torque constant.
     pub mgl_nm: Option<f64>,
+    /// Whether [`Command::hold`](Command) is assumed: what it changes is then reported.
+    pub hold_assumed: bool,
 }
 
 impl AsRef<Self> for Campaign {
@@ -54,7 +56,7 @@ impl Campaign {
                 });
             }
         }
-        Ok(Self { channels, runs, gravity: false, mgl_nm: None })
+        Ok(Self { channels, runs, gravity: false, mgl_nm: None, hold_assumed: false })
     }
 
     /// Returns this campaign with gravity of an unbalanced load, `g_s·sin θ + g_c·cos θ` on the motor at its angle θ,

@@ -76,6 +76,8 @@ pub(super) struct CommandSource {
     pub(super) reading: Reading,
     pub(super) kind: CommandKind,
     pub(super) hold: Hold,
+    /// Whether the file says that it does not know.
+    pub(super) hold_assumed: bool,
 }
 
 /// Kind of a command. For the library, torques and goals are commands of their own unit.
@@ -301,11 +303,9 @@ fn command(table: &Table<'_>, key: usize, axis: Axis) -> Result<CommandSource, E
             return Err(wrong_unit(&unit, found, expected).into());
         }
     };
-    let hold = match table.need("hold")?.choice(&["sampled", "measured"])? {
-        0 => Hold::Sampled,
-        _ => Hold::Measured,
-    };
-    Ok(CommandSource { reading: reading(table, size)?, kind, hold })
+    let choice = table.need("hold")?.choice(&["sampled", "measured", "unknown"])?;
+    let hold = if choice == 0 { Hold::Sampled } else { Hold::Measured };
+    Ok(CommandSource { reading: reading(table, size)?, kind, hold, hold_assumed: choice == 2 })
 }
 
 /// What the motor's channel measures.

@@ -55,6 +55,15 @@ pub(super) fn read(campaign: &str) -> Result<CampaignFile, Error> {
 }
 
 #[test]
+fn a_hold_that_nobody_knows_is_assumed() {
+    assert!(!read(PLAIN).unwrap().campaign.hold_assumed);
+    let unknown = PLAIN.replace("\"sampled\"", "\"unknown\"");
+    assert_ne!(unknown, PLAIN);
+    let campaign = read(&unknown).unwrap().campaign;
+    assert_eq!((campaign.channels.command.hold, campaign.hold_assumed), (Hold::Measured, true));
+}
+
+#[test]
 fn reads_a_plain_campaign() {
     let file = read(PLAIN).unwrap();
     let channels = &file.campaign.channels;
@@ -245,7 +254,7 @@ fn wrong_keys_and_units() {
     );
     fails(
         &PLAIN.replace("\"sampled\"", "\"held\""),
-        "campaign.toml, line 4: `signals.current.hold` is \"held\", but must be \"sampled\" or \"measured\"",
+        "campaign.toml, line 4: `signals.current.hold` is \"held\", but must be \"sampled\" or \"measured\" or \"unknown\"",
         Some("write one of these words"),
     );
     fails(

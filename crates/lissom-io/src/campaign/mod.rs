@@ -32,7 +32,7 @@
 //! **The input of the drive** is `current`, `voltage` or `command`. The unit of `command` may be a unit of current, of
 //! voltage, of torque (force on a linear axis), or `"1"` for a command of unknown unit. With `quantity = "goal"` it is
 //! the position goal of a servo: the input is then the goal minus the angle, and `[drive] position_gain` the torque per
-//! radian. `hold` is `"sampled"` (held between samples) or `"measured"`. For a voltage the torque constant is per volt,
+//! radian. `hold` is `"sampled"` (held between samples), `"measured"` or `"unknown"`. For a voltage the torque constant is per volt,
 //! or per ampere with `resistance` and `back_emf`; a `back_emf` with a constant per volt adds its damping. `limit` is
 //! the limit of any command; `current_limit` and `voltage_limit` are the same for a current and a voltage.
 //!

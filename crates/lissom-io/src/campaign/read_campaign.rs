@@ -211,7 +211,8 @@ fn read(
     let Described { signals, command, known, on_motor, analysis, runs } = described(source, only)?;
     let places =
         if only.is_empty() { places } else { LogPlaces { folder: Path::new(""), ..places } };
-    let campaign = load(places, &signals, command, &runs, options)?;
+    let mut campaign = load(places, &signals, command, &runs, options)?;
+    campaign.hold_assumed = signals.command.hold_assumed;
     let campaign = match on_motor {
         CampaignLoad { mgl_nm: Some(mgl_nm), .. } => campaign.with_known_gravity(mgl_nm)?,
         CampaignLoad { gravity: true, .. } => campaign.with_gravity()?,

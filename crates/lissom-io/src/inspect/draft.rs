@@ -18,9 +18,9 @@ use super::words::{commanded, words};
 use crate::log::LogPath;
 use crate::units::{Dimension, parse_any_unit};
 
-/// Why a command is taken as measured if nothing says so.
-const MEASURED: &str = "nothing shows how it acts between its samples: taken as measured by a sensor; hold = \"sampled\" for a value \
-                        that the controller commands";
+/// Why it is not known how a command acts.
+const UNKNOWN: &str = "nothing shows how it acts between its samples: taken as measured, and it is reported if that matters; hold = \
+                       \"measured\" for a sensor's value, \"sampled\" for one that the controller sets";
 
 /// What a user says about logs. What is absent is taken from the log where it is unambiguous.
 #[derive(Debug, Clone, Default, PartialEq, Eq)]
@@ -361,7 +361,7 @@ impl Signals<'_> {
                 if line.missing.is_none()
                     && let Some(why) = why
                 {
-                    line.assumes_hold = why == MEASURED;
+                    line.assumes_hold = why == UNKNOWN;
                     line.why =
                         if line.why.is_empty() { why } else { format!("{}; {why}", line.why) };
                     line.taken = true;
@@ -391,7 +391,7 @@ impl Signals<'_> {
         let drive = words.iter().find(|w| ["pwm", "duty"].contains(&w.as_str()));
         match commanded(&words).or(drive.map(String::as_str)) {
             Some(word) => ("sampled", Some(format!("taken as commanded: its name has \"{word}\""))),
-            None => ("measured", Some(MEASURED.to_owned())),
+            None => ("unknown", Some(UNKNOWN.to_owned())),
         }
     }
 

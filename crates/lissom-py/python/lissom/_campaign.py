@@ -57,7 +57,7 @@ class Campaign:
         Beginning of each run to leave out, as ``"1 s"``, or in seconds.
     window : str or float, optional
         Length of the window of the regression; chosen from the data if absent.
-    hold : {'measured', 'sampled'}, optional
+    hold : {'measured', 'sampled', 'unknown'}, optional
         How the input acts between samples; overrides that of its signal.
     decimal : {'.', ','}, optional
         Decimal sign of logs that are texts; a point if absent.
@@ -244,7 +244,7 @@ class Campaign:
             Points of the arm.
         run : str, optional
             Column with the number or name of the run.
-        hold : {'measured', 'sampled'}, optional
+        hold : {'measured', 'sampled', 'unknown'}, optional
             How the input acts between samples; found from the motion if absent.
         gravity : bool
             Whether gravity of an unbalanced load acts.

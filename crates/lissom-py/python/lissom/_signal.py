@@ -24,8 +24,9 @@ class Signal:
     unit : str
         Unit of the values, such as ``"rad"``, ``"deg"``, ``"rpm"``, ``"A"``, ``"mA"``; ``"1"`` for a
         command or tip of unknown unit.
-    hold : {'measured', 'sampled'}
-        For a command: a sensor's value, or constant between samples. Other signals have none.
+    hold : {'measured', 'sampled', 'unknown'}
+        For a command: a sensor's value, constant between samples, or not known, which is taken as measured and reported where it
+        matters. Other signals have none.
     scale : float
         The reading is ``scale * value`` in `unit`; negative if the sensor counts the other way. Encoder counts are
         ``Signal("counts", "rad", scale=2 * math.pi / 4096)``.
@@ -48,7 +49,7 @@ class Signal:
 
     column: str | int
     unit: str
-    hold: Literal["measured", "sampled"] = "measured"
+    hold: Literal["measured", "sampled", "unknown"] = "unknown"
     scale: float = 1.0
     offset: float = 0.0
     radius: str | float | None = None

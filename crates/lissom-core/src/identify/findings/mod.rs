@@ -19,6 +19,7 @@ mod number_text;
 mod output_error_finding;
 mod payload_finding;
 mod regression_finding;
+mod regression_words;
 mod response_finding;
 pub(crate) mod result_key;
 mod run_finding;

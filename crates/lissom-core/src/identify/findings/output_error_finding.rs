@@ -167,12 +167,20 @@ fn times(ratio: f64) -> String {
 impl fmt::Display for OutputErrorFinding {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
-            Self::CommandLag { lag_s, .. } => write!(
-                f,
-                "the command acts {} {} than it is logged: all estimates account for it",
-                milliseconds(*lag_s),
-                later(lag_s.value)
-            ),
+            Self::CommandLag { lag_s, cause } => {
+                let but = match cause {
+                    LagCause::Delay => "",
+                    LagCause::LooksHeld | LagCause::LooksMeasured => {
+                        ". Friction may be wrong by more, because it depends on how the command acts between its samples"
+                    }
+                };
+                write!(
+                    f,
+                    "the command acts {} {} than it is logged: all estimates account for it{but}",
+                    milliseconds(*lag_s),
+                    later(lag_s.value)
+                )
+            }
             Self::CommandNoise { ratio: None } => f.write_str(
                 "the measured command is too noisy to simulate whole runs from it: most of the residual torque is noise of \
                  the command. The estimates do not come from simulations of whole runs",
@@ -263,12 +271,13 @@ impl Describe for OutputErrorFinding {
         match self {
             Self::DampingKind { parameters } if !parameters.is_empty() => Severity::Warning,
             Self::DampingKind { .. }
-            | Self::CommandLag { .. }
+            | Self::CommandLag { cause: LagCause::Delay, .. }
             | Self::CommandNoise { .. }
             | Self::TipLag { .. }
             | Self::ModesByTheMotor { .. }
             | Self::MotionsPart { .. } => Severity::Info,
-            Self::ModesMissing { .. }
+            Self::CommandLag { .. }
+            | Self::ModesMissing { .. }
             | Self::FaintMode { .. }
             | Self::MoreThanNoise { .. }
             | Self::DamperDrives { .. }
@@ -280,7 +289,12 @@ impl Describe for OutputErrorFinding {
     fn affects(&self) -> Vec<&'static str> {
         match self {
             Self::CommandNoise { .. } => vec![],
-            Self::CommandLag { .. } => vec![key::INERTIA, key::VISCOUS, key::RAW_RESPONSE],
+            Self::CommandLag { cause: LagCause::Delay, .. } => {
+                vec![key::INERTIA, key::VISCOUS, key::RAW_RESPONSE]
+            }
+            Self::CommandLag { .. } => {
+                vec![key::COULOMB, key::INERTIA, key::VISCOUS, key::RAW_RESPONSE]
+            }
             Self::TipLag { .. } => vec![key::COUPLING, key::MODES, key::TIP_RESPONSES],
             Self::ModesMissing { .. }
             | Self::MoreThanNoise { .. }

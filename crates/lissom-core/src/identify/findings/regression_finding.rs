@@ -6,18 +6,19 @@ use strum::{IntoStaticStr, VariantNames};
 
 use crate::identify::estimate::Estimate;
 use crate::identify::findings::describe::Describe;
-use crate::identify::findings::number_text::{counted, later, significant, with_error};
+use crate::identify::findings::number_text::{counted, significant, with_error};
+use crate::identify::findings::regression_words::{
+    hold_assumed, looks_like, moved, moved_by, without_mode,
+};
 use crate::identify::findings::result_key as key;
 use crate::identify::findings::severity::Severity;
 use crate::identify::findings::units::EstimateUnits;
 use crate::identify::methods::regression::missing::{MissingKind, MissingTerm};
 use crate::identify::methods::regression::{AngleLag, GravityPartner, LagShape};
-use crate::identify::methods::regression::{HiddenMode, Moved};
+use crate::identify::methods::regression::{HiddenMode, OtherHold};
 
 /// Digits of a coefficient whose standard error is not given.
 const DIGITS: usize = 3;
-/// Smallest change of an estimate that is reported, in its standard errors.
-const FELT: f64 = 1.0;
 
 /// Regression in slip phases: quality of the fit, and effects that the motor's equation does not contain.
 #[derive(Debug, Clone, PartialEq, IntoStaticStr, VariantNames)]
@@ -91,6 +92,13 @@ pub enum RegressionFinding {
         /// Time and kind of the lag.
         lag: AngleLag,
     },
+    /// Nothing shows whether the command is held between its samples, and estimates depend on it.
+    HoldAssumed {
+        /// What the other one would change.
+        other: OtherHold,
+        /// Units of the estimates.
+        units: EstimateUnits,
+    },
     /// Viscous friction differs by direction.
     ViscousByDirection {
         /// Viscous friction forward.
@@ -118,90 +126,6 @@ impl RegressionFinding {
                 | Self::AngleLag { .. }
                 | Self::FrictionVaries { .. }
         )
-    }
-}
-
-/// The effect of a missing term, with its coefficient, in words.
-fn looks_like(term: &MissingTerm, units: EstimateUnits) -> String {
-    let size = significant(term.value.abs(), DIGITS);
-    let grows = if term.value < 0.0 { "falls" } else { "grows" };
-    match term.kind {
-        MissingKind::Delay => format!(
-            "the command acts {} ms {} than it is logged",
-            significant(1e3 * term.value.abs(), DIGITS),
-            later(term.value)
-        ),
-        MissingKind::Gravity => format!(
-            "the command depends on the angle like gravity, with an amplitude of {size} {}",
-            units.torque()
-        ),
-        MissingKind::Position => {
-            format!(
-                "a torque {grows} in proportion to the motor's angle, by {size} {}",
-                units.stiffness()
-            )
-        }
-        MissingKind::Stribeck => format!(
-            "friction near zero speed is {size} {} {} than Coulomb and viscous friction",
-            units.torque(),
-            if term.value < 0.0 { "lower" } else { "higher" }
-        ),
-        MissingKind::BeamDamping => format!(
-            "the beam has internal damping of {} ms times its stiffness",
-            significant(1e3 * term.value, DIGITS)
-        ),
-        MissingKind::CommandBySign => format!(
-            "positive commands give {:.1} % {} torque than negative ones",
-            200.0 * term.value.abs(),
-            if term.value > 0.0 { "more" } else { "less" }
-        ),
-        MissingKind::CoulombDrift => format!(
-            "Coulomb friction {grows} by {size} {} from the beginning of the campaign to its end",
-            units.torque()
-        ),
-        MissingKind::ViscousDrift => format!(
-            "viscous friction {grows} by {size} {} from the beginning of the campaign to its end",
-            units.viscous()
-        ),
-    }
-}
-
-/// Names, result keys and relative changes of the estimates that a term changes by more than their standard errors.
-fn moved(moves: &[Moved; 3]) -> Vec<(&'static str, &'static str, f64)> {
-    let names = [
-        ("inertia", key::INERTIA),
-        ("viscous friction", key::VISCOUS),
-        ("Coulomb friction", key::COULOMB),
-    ];
-    let felt = names.into_iter().zip(moves);
-    let felt = felt.filter(|(_, moved)| moved.standard_errors.abs() > FELT);
-    felt.map(|((name, key), moved)| (name, key, moved.share)).collect()
-}
-
-/// Relative changes of estimates, in words; `None` if there are none.
-fn changed(shares: impl Iterator<Item = (&'static str, f64)>) -> Option<String> {
-    let parts = shares.map(|(name, share)| {
-        let more = if share < 0.0 { "lower" } else { "higher" };
-        format!("{name} {} % {more}", significant(100.0 * share.abs(), 2))
-    });
-    Some(parts.collect::<Vec<_>>().join(", ")).filter(|text| !text.is_empty())
-}
-
-/// The changes of the estimates by a missing term, in words.
-fn moved_by(term: &MissingTerm) -> String {
-    let moved = moved(&term.moves).into_iter();
-    match changed(moved.map(|(name, _, share)| (name, share))) {
-        None => "with it no estimate changes by more than its standard error".to_owned(),
-        Some(changes) => format!("with it the estimates would change ({changes})"),
-    }
-}
-
-/// The changes of the estimates if the mode were left out, in words.
-fn without_mode(mode: &HiddenMode) -> String {
-    let moved = moved(&mode.moves).into_iter();
-    match changed(moved.map(|(name, _, share)| (name, 1.0 / (1.0 + share) - 1.0))) {
-        None => "Without the mode no estimate changes by more than its standard error".to_owned(),
-        Some(changes) => format!("Without the mode the estimates would change ({changes})"),
     }
 }
 
@@ -317,6 +241,7 @@ impl fmt::Display for RegressionFinding {
                 significant(100.0 * mode.inertia_share.value, 2),
                 without_mode(mode)
             ),
+            Self::HoldAssumed { other, units } => f.write_str(&hold_assumed(other, *units)),
             Self::FrictionVaries { by } => write!(
                 f,
                 "friction, or a load, changes from one slip phase to the next by {} % of Coulomb friction (rms). The \
@@ -366,6 +291,7 @@ impl Describe for RegressionFinding {
             | Self::OneSine
             | Self::MissingTerm { .. }
             | Self::AngleLag { .. }
+            | Self::HoldAssumed { .. }
             | Self::ViscousByDirection { .. } => Severity::Warning,
         }
     }
@@ -402,6 +328,14 @@ impl Describe for RegressionFinding {
                 vec![key::COULOMB, key::OFFSET, key::GRAVITY]
             }
             Self::InertiaShort { .. } => vec![key::INERTIA],
+            Self::HoldAssumed { other, .. } => {
+                let changes = [
+                    (other.coulomb, key::COULOMB),
+                    (other.viscous, key::VISCOUS),
+                    (other.inertia, key::INERTIA),
+                ];
+                changes.into_iter().filter_map(|(change, key)| change.map(|_| key)).collect()
+            }
             Self::OneSine => {
                 vec![key::COULOMB, key::VISCOUS, key::INERTIA, key::COUPLING, key::MODES]
             }
@@ -481,6 +415,10 @@ impl Describe for RegressionFinding {
             Self::AngleLag { .. } => {
                 "log the angle before the drive filters it; near reversals friction may differ from the estimates by more than \
                  their standard errors"
+            }
+            Self::HoldAssumed { .. } => {
+                "say how the command was logged: hold = \"sampled\" for a value that the controller sets and holds, hold = \
+                 \"measured\" for that of a sensor"
             }
             Self::ViscousByDirection { .. } => {
                 "look for a brush, a screw or a cable as the cause; the single value given is the mean of both, and the \

@@ -175,7 +175,8 @@ fn used_runs<'a>(campaign: &'a Campaign, kept: &[usize], dead: &[bool]) -> Cow<'
         tip.calibrated &= !dead;
     }
     let runs = kept.iter().map(|&i| campaign.runs[i].clone()).collect();
-    Cow::Owned(Campaign { channels, runs, gravity: campaign.gravity, mgl_nm: campaign.mgl_nm })
+    let Campaign { gravity, mgl_nm, hold_assumed, .. } = *campaign;
+    Cow::Owned(Campaign { channels, runs, gravity, mgl_nm, hold_assumed })
 }
 
 /// Runs that the regressions and the output error may use.

@@ -138,6 +138,7 @@ fn delayed(campaign: &Campaign, runs: &[&Run], shape: LagShape, time_s: f64) -> 
         runs: runs.collect(),
         gravity: campaign.gravity,
         mgl_nm: campaign.mgl_nm,
+        hold_assumed: campaign.hold_assumed,
     }
 }
 

@@ -158,12 +158,24 @@ pub fn motor_regression(prepared: &Prepared<'_>, options: &Options) -> Option<Mo
             let Some(now) = lag else { break };
             let late = on_slip_phases(&now.late(campaign), noise, &options.window_s, Some(now));
             let Some(late) = late else { break };
+            if is_impossible(&late, &found) {
+                break;
+            }
             found = late;
             lag = delay(&found).map(|missing| now.longer_by(missing.value));
         }
         found.delay = as_logged;
         Some(found)
     })
+}
+
+/// Whether a lag makes the inertia negative, or viscous friction drive the motor more than without it: then it is no lag.
+fn is_impossible(late: &MotorRegression, without: &MotorRegression) -> bool {
+    let value = |e: Option<Estimate>| e.map_or(0.0, |e| e.value);
+    let is_negative = |e: Option<Estimate>| e.is_some_and(|e| e.is_negative());
+    let drives = is_negative(late.viscous) && value(late.viscous) < value(without.viscous);
+    // All is negative if the command has the other sign.
+    !is_negative(without.inertia) && (drives || is_negative(late.inertia))
 }
 
 /// Repeats the regression without each run in turn: in windows of the chosen length, and, if some runs have none of these, in the

@@ -50,6 +50,11 @@ thresholds! {
         /// If nobody states whether a command is held, it is taken as held only if it then acts
         /// later by no more than this share of a sample: a longer delay has another cause.
         HELD_DELAY_MOST: f64 = 0.4, "samples", Convention;
+        /// If nothing shows whether a command is held, the estimates that this changes by more than
+        /// this are reported.
+        HOLD_MATTERS_ERRORS: f64 = 3.0, "standard errors", Convention;
+        /// As `HOLD_MATTERS_ERRORS`: in addition the relative change must be more than this.
+        HOLD_MATTERS: f64 = 0.01, "1", Convention;
         /// A lag of the angle is a filter and not a delay, or a delay and not a filter, if the
         /// residual with the one is less than this share of the residual with the other.
         LAG_SHAPE_TOLD: f64 = 0.8, "1", Convention;
