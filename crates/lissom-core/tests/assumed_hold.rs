@@ -10,25 +10,19 @@ use rand_distr::{Distribution as _, StandardNormal};
 use rand_xoshiro::Xoshiro256PlusPlus;
 use rand_xoshiro::rand_core::SeedableRng as _;
 
-const JOINT: RigidJoint = RigidJoint {
-    inertia: 0.01,
-    viscous: 0.02,
-    coulomb: 0.15,
-    friction: None,
-    backward: None,
-    load: |_| 0.0,
-    per_load: 0.0,
-    sample_time_s: 2e-3,
-    steps: 10,
-};
+const SAMPLE_S: f64 = 2e-3;
+
+fn joint() -> RigidJoint {
+    RigidJoint { sample_time_s: SAMPLE_S, ..RigidJoint::default() }
+}
 
 /// Twenty seconds of steps of 1 rad.
 fn steps() -> RigidLog {
-    JOINT.follow(10_000, |t| if t % 2.0 < 1.0 { 0.0 } else { 1.0 })
+    joint().follow(10_000, |t| if t % 2.0 < 1.0 { 0.0 } else { 1.0 })
 }
 
 fn campaign(command: &[f64], angle: Vec<f64>, hold: Hold) -> Campaign {
-    let base = TimeBase::uniform(0.0, JOINT.sample_time_s);
+    let base = TimeBase::uniform(0.0, SAMPLE_S);
     let run = Run::new("steps", base, command.to_vec(), angle, vec![]).unwrap();
     let command = Command {
         quantity: CommandQuantity::Current,
@@ -71,7 +65,7 @@ fn steps_with_noise_show_that_the_command_is_held() {
         let shown = hold_shown(&noisy(&log.held, &log.angle, [0.05, 1e-3], seed)).unwrap();
         assert_eq!(shown.hold, Hold::Sampled, "{seed}: {shown:?}");
         if let HoldEvidence::Viscous { held, .. } = shown.by {
-            assert!((held.value - JOINT.viscous).abs() < 4.0 * held.std, "{seed}: {held:?}");
+            assert!((held.value - joint().viscous).abs() < 4.0 * held.std, "{seed}: {held:?}");
         }
     }
 }
@@ -97,7 +91,7 @@ fn what_depends_on_an_assumed_hold_is_reported_and_on_a_stated_one_not() {
 #[test]
 fn an_assumed_hold_that_changes_nothing_is_not_reported() {
     let smooth = |t: f64| 1.5 * (1.3 * t).sin() + 0.5 * (4.1 * t).sin();
-    let log = JOINT.follow(10_000, smooth);
+    let log = joint().follow(10_000, smooth);
     let assumed = noisy(&log.measured, &log.angle, [0.02, 1e-3], 6);
     assert!(!codes(&assumed).contains(&"hold-assumed"));
 }
@@ -110,7 +104,7 @@ fn a_coarse_encoder_is_no_lag_of_the_angle() {
         let found = motor_regression(&Prepared::of(&campaign), &Options::default()).unwrap();
         assert_eq!(found.lag, None, "{counts}");
         let inertia = found.inertia.unwrap();
-        assert!((inertia.value - JOINT.inertia).abs() < 4.0 * inertia.std, "{counts}: {inertia}");
-        assert!(counts < 4000.0 || inertia.std < 0.02 * JOINT.inertia, "{counts}: {inertia}");
+        assert!((inertia.value - joint().inertia).abs() < 4.0 * inertia.std, "{counts}: {inertia}");
+        assert!(counts < 4000.0 || inertia.std < 0.02 * joint().inertia, "{counts}: {inertia}");
     }
 }
