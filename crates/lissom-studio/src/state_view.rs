@@ -15,7 +15,7 @@ use crate::session::{FileKind, LogEntry, ResultEntry, Session};
 use crate::setup::Setup;
 
 /// What stands beside a hold that the identification finds.
-const NOT_YET: &str = "not decided yet: \"Identify\" finds from the motion whether it is measured or sampled, and keeps it";
+const NOT_YET: &str = "not decided yet: \"Identify\" finds from the motion whether it is measured or sampled, as far as the motion shows it";
 
 /// The session as the page shows it.
 #[derive(Debug, Serialize)]

@@ -36,7 +36,7 @@ pub(crate) struct LogArgs {
     /// Position reference of a servo
     #[arg(long, value_name = "COLUMN:UNIT", value_parser = choice, group = "drive_input")]
     goal: Option<Choice>,
-    /// Input commanded (sampled), or a sensor's value (measured)
+    /// Input commanded (sampled), measured, or unknown
     #[arg(long, value_name = "HOLD", value_parser = ["sampled", "measured", "unknown"], hide_possible_values = true)]
     hold: Option<String>,
     /// Angle, position or speed of the motor [default: found]

@@ -142,7 +142,7 @@ pub fn identify(
     let regression_missing = any_regression.as_ref().and_then(|r| r.missing);
     let regression_residual = any_regression.as_ref().map(|r| r.relative_residual);
     let regression = any_regression.clone().filter(|r| r.relative_residual < REFUSED_TORQUE);
-    let hold = regression.as_ref().and_then(|r| assumed_hold(campaign, r));
+    let hold = regression.as_ref().and_then(|r| assumed_hold(prepared.used(), options, r));
     // What is found on slip phases is of commands that are as late as the angle.
     let lag = regression.as_ref().and_then(|r| r.lag);
     let late = lag.map(|lag| prepared.using(lag.late(prepared.used())));
@@ -237,8 +237,12 @@ pub fn identify(
 }
 
 /// What an assumed hold of the command changes.
-fn assumed_hold(campaign: &Campaign, found: &MotorRegression) -> Option<Finding> {
-    let other = campaign.hold_assumed.then(|| other_hold(campaign, found))??;
+fn assumed_hold(
+    campaign: &Campaign,
+    options: &Options,
+    found: &MotorRegression,
+) -> Option<Finding> {
+    let other = campaign.hold_assumed.then(|| other_hold(campaign, options, found))??;
     let units = EstimateUnits::new(&campaign.channels);
     Some(Finding::new(RegressionFinding::HoldAssumed { other, units }))
 }

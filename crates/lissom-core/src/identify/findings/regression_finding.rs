@@ -8,7 +8,7 @@ use crate::identify::estimate::Estimate;
 use crate::identify::findings::describe::Describe;
 use crate::identify::findings::number_text::{counted, significant, with_error};
 use crate::identify::findings::regression_words::{
-    hold_assumed, looks_like, moved, moved_by, without_mode,
+    DIGITS, hold_assumed, looks_like, moved, moved_by, moved_by_hold, without_mode,
 };
 use crate::identify::findings::result_key as key;
 use crate::identify::findings::severity::Severity;
@@ -16,9 +16,6 @@ use crate::identify::findings::units::EstimateUnits;
 use crate::identify::methods::regression::missing::{MissingKind, MissingTerm};
 use crate::identify::methods::regression::{AngleLag, GravityPartner, LagShape};
 use crate::identify::methods::regression::{HiddenMode, OtherHold};
-
-/// Digits of a coefficient whose standard error is not given.
-const DIGITS: usize = 3;
 
 /// Regression in slip phases: quality of the fit, and effects that the motor's equation does not contain.
 #[derive(Debug, Clone, PartialEq, IntoStaticStr, VariantNames)]
@@ -92,7 +89,7 @@ pub enum RegressionFinding {
         /// Time and kind of the lag.
         lag: AngleLag,
     },
-    /// Nothing shows whether the command is held between its samples, and estimates depend on it.
+    /// It is not known whether the command is held between its samples, and estimates depend on it.
     HoldAssumed {
         /// What the other one would change.
         other: OtherHold,
@@ -328,13 +325,8 @@ impl Describe for RegressionFinding {
                 vec![key::COULOMB, key::OFFSET, key::GRAVITY]
             }
             Self::InertiaShort { .. } => vec![key::INERTIA],
-            Self::HoldAssumed { other, .. } => {
-                let changes = [
-                    (other.coulomb, key::COULOMB),
-                    (other.viscous, key::VISCOUS),
-                    (other.inertia, key::INERTIA),
-                ];
-                changes.into_iter().filter_map(|(change, key)| change.map(|_| key)).collect()
+            Self::HoldAssumed { other, units } => {
+                moved_by_hold(other, *units).into_iter().map(|(key, _)| key).collect()
             }
             Self::OneSine => {
                 vec![key::COULOMB, key::VISCOUS, key::INERTIA, key::COUPLING, key::MODES]

@@ -8,7 +8,7 @@ use crate::identify::methods::regression::{HiddenMode, Moved, OtherHold};
 use crate::record::Hold;
 
 /// Digits of a coefficient whose standard error is not given.
-const DIGITS: usize = 3;
+pub(super) const DIGITS: usize = 3;
 /// Smallest change of an estimate that is reported, in its standard errors.
 const FELT: f64 = 1.0;
 
@@ -57,25 +57,35 @@ pub(super) fn looks_like(term: &MissingTerm, units: EstimateUnits) -> String {
     }
 }
 
+/// Result keys of the estimates that depend on the hold, and their changes in words.
+pub(super) fn moved_by_hold(
+    other: &OtherHold,
+    units: EstimateUnits,
+) -> Vec<(&'static str, String)> {
+    let changes = [
+        ("Coulomb friction", key::COULOMB, other.coulomb, units.torque().to_owned()),
+        ("viscous friction", key::VISCOUS, other.viscous, units.viscous()),
+        ("inertia", key::INERTIA, other.inertia, units.inertia()),
+    ];
+    let changes = changes.into_iter().filter_map(|(name, key, change, unit)| {
+        let [now, then] = change?;
+        Some((key, format!("{name} {then} instead of {now} {unit}")))
+    });
+    changes.collect()
+}
+
 /// That the hold is assumed, and the estimates that depend on it, in words.
 pub(super) fn hold_assumed(other: &OtherHold, units: EstimateUnits) -> String {
-    let changes = [
-        ("Coulomb friction", other.coulomb, units.torque().to_owned()),
-        ("viscous friction", other.viscous, units.viscous()),
-        ("inertia", other.inertia, units.inertia()),
-    ];
-    let changes = changes.into_iter().filter_map(|(name, change, unit)| {
-        let [now, then] = change?;
-        Some(format!("{name} {then} instead of {now} {unit}"))
-    });
+    let changes: Vec<String> =
+        moved_by_hold(other, units).into_iter().map(|(_, change)| change).collect();
     let (taken, if_it_is) = match other.taken {
         Hold::Measured => ("measured by a sensor", "held"),
         Hold::Sampled => ("held", "measured by a sensor"),
     };
     format!(
-        "nothing shows whether the command is held between its samples; it is taken as {taken}. If it is {if_it_is}, the \
+        "it is not known whether the command is held between its samples; it is taken as {taken}. If it is {if_it_is}, the \
          regression gives other estimates: {}",
-        changes.collect::<Vec<_>>().join(", ")
+        changes.join(", ")
     )
 }
 

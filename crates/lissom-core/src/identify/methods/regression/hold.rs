@@ -43,15 +43,16 @@ pub enum HoldEvidence {
 /// Where neither is shown, it is the one with which viscous friction is positive, if it is negative with the other. `None` if
 /// this does not show it, or if the logs do not give the motor's equation.
 pub fn hold_shown(campaign: &Campaign) -> Option<HoldShown> {
-    let [measured, held] = [Hold::Measured, Hold::Sampled].map(|hold| with_hold(campaign, hold));
+    let with = |hold| with_hold(campaign, &Options::default(), hold);
+    let [measured, held] = [Hold::Measured, Hold::Sampled].map(with);
     let (measured, held) = (measured?, held?);
     by_delay(campaign, &measured, &held).or_else(|| by_viscous(&measured, &held))
 }
 
-fn with_hold(campaign: &Campaign, hold: Hold) -> Option<MotorRegression> {
+fn with_hold(campaign: &Campaign, options: &Options, hold: Hold) -> Option<MotorRegression> {
     let mut campaign = campaign.clone();
     campaign.channels.command.hold = hold;
-    motor_regression(&Prepared::of(&campaign), &Options::default())
+    motor_regression(&Prepared::of(&campaign), options)
 }
 
 fn by_delay(
@@ -107,14 +108,19 @@ pub struct OtherHold {
     pub coulomb: Option<[Estimate; 2]>,
 }
 
-/// What the other hold would change by more than three standard errors and a share of 1 %; `None` if nothing does.
-pub(crate) fn other_hold(campaign: &Campaign, found: &MotorRegression) -> Option<OtherHold> {
+/// What the other hold would change, of what was `found` with these runs and options, by more than three standard errors and a
+/// share of 1 %; `None` if nothing does.
+pub(crate) fn other_hold(
+    campaign: &Campaign,
+    options: &Options,
+    found: &MotorRegression,
+) -> Option<OtherHold> {
     let taken = campaign.channels.command.hold;
     let other = match taken {
         Hold::Measured => Hold::Sampled,
         Hold::Sampled => Hold::Measured,
     };
-    let other = with_hold(campaign, other)?;
+    let other = with_hold(campaign, options, other)?;
     let changes = |now: Option<Estimate>, then: Option<Estimate>| {
         let (now, then) = (now?, then?);
         let change = (then.value - now.value).abs();
