@@ -142,10 +142,13 @@ fn a_parameter_that_is_doubtful_or_absent_is_marked() {
         "affects": ["friction.coulomb"], "message": "", "hint": ""
     }));
     let estimate = after["friction"]["coulomb_nm"].clone();
-    after["friction"]["near_rest"] = serde_json::json!({
+    let mut law = after["friction"].clone();
+    law.as_object_mut().unwrap().retain(|key, _| key != "law" && key != "curve");
+    law["near_rest"] = serde_json::json!({
         "amplitude_nm": estimate, "static_nm": null, "speed_rad_per_s": estimate,
         "falloff": "exponential"
     });
+    after["friction"]["law"] = law;
     fs::write(at.join("after.json"), after.to_string()).unwrap();
     let table = lissom(at, &["compare", "before.json", "after.json"]);
     let row = |name: &str| table.lines().find(|line| line.starts_with(name)).unwrap();

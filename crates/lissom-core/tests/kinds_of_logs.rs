@@ -161,10 +161,11 @@ fn friction_that_grows_with_the_load() {
         within("viscous", found.friction.viscous, 0.02, 0.05);
         within("inertia", found.inertia, 0.01, 0.02);
         within("gravity", found.gravity.map(|g| g.amplitude()), 0.6, 0.01);
+        let with_load = found.friction.law.and_then(|law| law.with_load);
         if per_load > 0.0 {
-            within("per load", found.friction.with_load, per_load, 0.05);
+            within("per load", with_load, per_load, 0.05);
         } else {
-            assert_eq!(found.friction.with_load, None);
+            assert_eq!(with_load, None);
         }
     }
 }
@@ -318,7 +319,7 @@ fn a_lag_of_either_channel_is_counted() {
         within("viscous", found.friction.viscous, 0.02, 0.05);
         within("inertia", found.inertia, 0.01, 0.01);
         assert_eq!(codes(&found).first(), Some(&"angle-lag"), "late current: {late_current}");
-        let time_s = found.regression.unwrap().lag.unwrap().time_s;
+        let time_s = found.friction_law.unwrap().lag.unwrap().time_s;
         let truth = if late_current { -5e-3 } else { 5e-3 };
         assert!((time_s / truth - 1.0).abs() < 0.15, "{time_s}");
     }
@@ -353,9 +354,10 @@ fn slopes_that_differ_by_direction() {
     log.angle.iter_mut().for_each(|q| *q = (*q / step).round() * step);
     noisy(&mut log.measured, 5e-3);
     let found = quick(&measured(&joint, log));
-    within("forward", found.friction.forward, 0.11, 0.02);
-    within("backward", found.friction.backward, 0.07, 0.03);
-    let (forward, backward) = found.friction.viscous_by_direction.unwrap();
+    let law = found.friction.law.unwrap();
+    within("forward", law.forward, 0.11, 0.02);
+    within("backward", law.backward, 0.07, 0.03);
+    let (forward, backward) = law.viscous_by_direction.unwrap();
     within("viscous forward", Some(forward), 0.026, 0.03);
     within("viscous backward", Some(backward), 0.014, 0.05);
 }

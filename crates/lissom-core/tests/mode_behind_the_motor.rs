@@ -2,9 +2,7 @@
 
 #![expect(clippy::unwrap_used, reason = "tests")]
 
-use lissom::identify::{
-    Estimate, Finding, Identified, Options, Prepared, identify, motor_regression,
-};
+use lissom::identify::{Effort, Estimate, Finding, Identified, Options, identify};
 use lissom::record::{Axis, Campaign, Channels, Command, CommandQuantity, Hold, Run, TimeBase};
 
 const MOTOR_KG_M2: f64 = 0.006;
@@ -81,7 +79,8 @@ fn near(name: &str, found: f64, truth: f64, within: f64) {
 #[test]
 fn slip_phases_show_the_mode_and_count_it() {
     let campaign = campaign();
-    let found = motor_regression(&Prepared::of(&campaign), &Options::default()).unwrap();
+    let options = Options { effort: Effort::Quick, ..Options::default() };
+    let found = identify(&campaign, &options, |_| ()).unwrap().regression.unwrap();
     let mode = found.mode.unwrap();
     near("mode", mode.omega_rad_s.value, OMEGA_RAD_S, 0.01);
     near("damping ratio", mode.damping_ratio.value, DAMPING_RATIO, 0.3);

@@ -62,11 +62,15 @@ fn is_whole(id: &Identified, method: Method, solution: &DriveEstimates) {
     assert_eq!(id.beam.coupling, solution.coupling);
     assert_eq!(id.beam.coupling_by_tip, solution.coupling_by_tip);
     let (Some(arm), friction) = (&id.arm, &solution.friction) else { return };
-    let viscous = friction.viscous_by_direction.map_or_else(
-        || [friction.viscous.unwrap().value; 2],
-        |(forward, backward)| [forward.value, backward.value],
-    );
-    assert_eq!(arm.arm.coulomb_nm.to_bits(), friction.coulomb.unwrap().value.to_bits());
+    let (coulomb, viscous) = match &friction.law {
+        Some(law) => {
+            let mean = law.viscous.unwrap();
+            let by_direction = law.viscous_by_direction.unwrap_or((mean, mean));
+            (law.coulomb.unwrap(), [by_direction.0.value, by_direction.1.value])
+        }
+        None => (friction.coulomb.unwrap(), [friction.viscous.unwrap().value; 2]),
+    };
+    assert_eq!(arm.arm.coulomb_nm.to_bits(), coulomb.value.to_bits());
     assert_eq!(arm.arm.offset_nm.to_bits(), friction.offset.unwrap().value.to_bits());
     assert_eq!(arm.arm.inertia_kg_m2.to_bits(), solution.inertia.unwrap().value.to_bits());
     for (of_arm, printed) in arm.arm.viscous_nm_s_per_rad.iter().zip(viscous) {
@@ -87,16 +91,11 @@ fn one_viscous_coefficient_is_the_regression() {
 fn viscous_friction_by_direction_comes_with_its_own_coulomb_friction() {
     let friction = |v: f64| if v > 0.0 { 0.36 + 0.05 * v } else { -0.24 + 0.12 * v };
     let id = found(sines, 40.0, friction);
-    let regression = id.regression.as_ref().unwrap();
-    let law = id.friction_law.as_ref().filter(|law| law.chosen.departs());
-    let split = || regression.viscous_by_direction.as_ref().unwrap().estimates.clone();
-    let (method, solution) = law.map_or_else(
-        || (Method::RegressionByDirection, split()),
-        |law| (Method::FrictionLaw, law.chosen.estimates()),
-    );
-    is_whole(&id, method, &solution);
-    assert_ne!(id.friction.forward, regression.forward);
-    let (forward, backward) = (id.friction.forward.unwrap(), id.friction.backward.unwrap());
+    let law = id.friction_law.as_ref().unwrap();
+    is_whole(&id, Method::FrictionLaw, &law.chosen.estimates());
+    let law = id.friction.law.as_ref().unwrap();
+    assert!(law.viscous_by_direction.is_some());
+    let (forward, backward) = (law.forward.unwrap(), law.backward.unwrap());
     assert!((forward.value - 0.36).abs() < 0.01 && (backward.value - 0.24).abs() < 0.01);
 }
 

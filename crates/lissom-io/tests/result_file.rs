@@ -4,18 +4,18 @@
 
 use lissom::drive::Falloff;
 use lissom::identify::{
-    ByDirection, ConstantVelocity, Estimate, FrictionLine, Identified, LawCandidate, LawTerm,
-    LineShape, NearRestEstimate, Options, Prepared, RippleEstimate, RunToAdd, SteadyPoint,
-    geometry_check, identify, motor_regression,
+    ConstantVelocity, Estimate, FrictionLine, Identified, LawCandidate, LawEstimates, LawTerm,
+    LineShape, MissingKind, ModelTerm, NearRestEstimate, Options, RippleEstimate, RunToAdd,
+    SteadyPoint, geometry_check, identify,
 };
 use lissom::information::ArmParameter;
+use lissom::load::{GravityLoad, TorqueRipple};
 use lissom::plan::PlannedMotion;
-use lissom::record::{
-    Axis, Campaign, Channels, Command, CommandQuantity, Hold, Run, TimeBase, Tip, TipQuantity,
-};
-use lissom::replay::{DryTerms, NearRest, Ripple};
+use lissom::record::{Axis, Campaign, Channels, Command, CommandQuantity, Hold, Tip, TipQuantity};
+use lissom::replay::{DryTerms, NearRest, Ripple, Root, WithLoad};
 use lissom::rig::{Experiment, Settle};
 use lissom_io::ResultFile;
+use lissom_io::result::arm_of_text;
 use lissom_testmodels::SchemaCheck;
 
 /// A campaign of three sines with one pair, and one of them as a motion of any shape.
@@ -72,7 +72,6 @@ fn results() -> Vec<ResultFile> {
 
 fn with_directions(mut id: Identified) -> Identified {
     let estimate = Estimate { value: 1.0, std: 0.1 };
-    id.friction.viscous_by_direction = Some((estimate, estimate));
     let line = |shape| FrictionLine {
         coulomb: estimate,
         viscous: estimate,
@@ -99,18 +98,34 @@ fn with_directions(mut id: Identified) -> Identified {
     if let Some(law) = &mut id.friction_law {
         let terms = [
             LawTerm::NearRest { speed: 0.1, falloff: Falloff::Gaussian },
-            LawTerm::AfterTravel { travel: 0.01 },
-            LawTerm::Ripple { per_angle: 12.0 },
+            LawTerm::Root,
+            LawTerm::TorqueRipple { per_angle: 12.0 },
         ];
         law.chosen.terms = terms.map(|term| (term, vec![estimate])).to_vec();
         let tried = law.candidates[0];
-        law.candidates = terms.map(|term| LawCandidate { term, ..tried }).to_vec();
+        let tried_terms = terms.map(ModelTerm::Law).into_iter();
+        let all = tried_terms.chain([ModelTerm::Missing(MissingKind::WithTorque)]);
+        law.candidates = all.map(|term| LawCandidate { term, ..tried }).collect();
     }
     let falloff = Falloff::Exponential;
-    id.friction.with_load = Some(estimate);
-    id.friction.near_rest =
-        Some(NearRestEstimate { torque: estimate, at_rest: estimate, speed: estimate, falloff });
-    id.friction.ripples = vec![RippleEstimate { torque: estimate, per_angle: estimate }];
+    let ripple = RippleEstimate { torque: estimate, per_angle: estimate };
+    id.friction.law = Some(LawEstimates {
+        coulomb: Some(estimate),
+        forward: Some(estimate),
+        backward: Some(estimate),
+        viscous: Some(estimate),
+        viscous_by_direction: Some((estimate, estimate)),
+        near_rest: Some(NearRestEstimate {
+            torque: estimate,
+            at_rest: estimate,
+            speed: estimate,
+            falloff,
+        }),
+        root: Some(estimate),
+        with_load: Some(estimate),
+        ripples: vec![ripple],
+        torque_ripples: vec![ripple],
+    });
     if let Some(found) = &mut id.arm {
         found.coupling_alone_nm_per_rad = vec![estimate.value];
         found.arm.dry_terms = DryTerms {
@@ -121,7 +136,14 @@ fn with_directions(mut id: Identified) -> Identified {
                 falloff: Falloff::Exponential,
             }),
             ripples: vec![Ripple { per_rad: 9.0, cosine_nm: 0.1, sine_nm: 0.0 }],
+            root: Some(Root { torque_nm_per_root_rad_s: 0.2 }),
+            with_load: Some(WithLoad {
+                coefficient: 0.05,
+                load: GravityLoad { sine_nm: 1.5, cosine_nm: -0.4 },
+            }),
         };
+        found.arm.torque_ripples =
+            vec![TorqueRipple { per_rad: 12.0, cosine_nm: 0.05, sine_nm: 0.02 }];
     }
     if let Some(verdict) = &mut id.separability {
         verdict.run_to_add = Some(RunToAdd {
@@ -133,36 +155,7 @@ fn with_directions(mut id: Identified) -> Identified {
             std_then: 0.02,
         });
     }
-    if let Some(regression) = &mut id.regression {
-        regression.viscous_by_direction = by_direction();
-    }
     id
-}
-
-/// A regression of sines whose viscous friction is larger forward than backward.
-fn by_direction() -> Option<ByDirection> {
-    let (sample_time_s, omega) = (0.002, 3.0_f64);
-    let wave = |of: &dyn Fn(f64) -> f64| -> Vec<f64> {
-        (0..20_000).map(|k| of(sample_time_s * f64::from(k))).collect()
-    };
-    let velocity = |t: f64| omega * (omega * t).cos() + 0.6 * omega * (0.4 * omega * t).cos();
-    let motor = wave(&|t| (omega * t).sin() + 1.5 * (0.4 * omega * t).sin());
-    let torque = wave(&|t| {
-        let v = velocity(t);
-        let viscous = if v > 0.0 { 0.3 } else { 0.1 };
-        0.3 * v.signum() + viscous * v - 0.02 * omega * omega * (omega * t).sin()
-    });
-    let command = Command {
-        quantity: CommandQuantity::Current,
-        hold: Hold::Measured,
-        torque_per_command: Some(1.0),
-        back_emf_viscous: 0.0,
-        limit: None,
-    };
-    let run = Run::new("sines", TimeBase::uniform(0.0, sample_time_s), torque, motor, vec![]);
-    let channels = Channels { axis: Axis::Rotary, command, tips: vec![] };
-    let campaign = Campaign::new(channels, vec![run.unwrap()]).unwrap();
-    motor_regression(&Prepared::of(&campaign), &Options::default()).unwrap().viscous_by_direction
 }
 
 #[test]
@@ -188,13 +181,16 @@ fn a_result_and_its_schema_name_the_same_keys() {
         "arm.tips[].shape",
         "methods.third_harmonic.fit.weighted_rms",
         "methods.regression.beam.modes",
-        "methods.regression.viscous_by_direction.relative_residual",
-        "methods.friction_law.candidates[].residual_ratio",
+        "methods.friction_law.candidates[].standard_errors",
         "friction.curve[].windows",
-        "friction.near_rest",
-        "friction.ripples",
+        "friction.law.near_rest",
+        "friction.law.ripples",
+        "friction.law.torque_ripples",
         "arm.near_rest",
         "arm.ripples",
+        "arm.root",
+        "arm.with_load.coefficient",
+        "arm.torque_ripples",
         "methods.constant_velocity.lines[].standard_errors",
         "methods.constant_velocity.points[].start_s",
         "models.from",
@@ -203,4 +199,29 @@ fn a_result_and_its_schema_name_the_same_keys() {
         "runs[].stuck_share",
         "findings[].code",
     ]);
+}
+
+/// An arm with every term is the same after it is written and read.
+#[test]
+fn the_arm_of_a_result_is_read_as_it_was_written() {
+    let campaign = campaign();
+    let mut id = identify(&campaign, &Options::default(), |_| ()).unwrap();
+    id = with_directions(id);
+    let found = id.arm.as_mut().unwrap();
+    found.coupling_alone_nm_per_rad.clear();
+    let written = found.arm.clone();
+    let text = serde_json::to_string(&ResultFile::of(&campaign.channels, &id, None)).unwrap();
+    let read = arm_of_text("result.json", &text, &campaign.channels).unwrap().arm;
+    assert_eq!(read.dry_terms.root, written.dry_terms.root);
+    assert_eq!(read.dry_terms.with_load, written.dry_terms.with_load);
+    let (a, b) = (&read.torque_ripples[0], &written.torque_ripples[0]);
+    assert!((a.per_rad / b.per_rad - 1.0).abs() < 1e-15, "{a:?} {b:?}");
+    assert_eq!((a.cosine_nm, a.sine_nm), (b.cosine_nm, b.sine_nm));
+    // Without these terms nothing of them is written.
+    let arm = &mut id.arm.as_mut().unwrap().arm;
+    (arm.dry_terms, arm.torque_ripples) = (DryTerms::default(), Vec::new());
+    let json = serde_json::to_value(ResultFile::of(&campaign.channels, &id, None)).unwrap();
+    for key in ["root", "with_load", "torque_ripples"] {
+        assert!(json["arm"].get(key).is_none(), "{key}");
+    }
 }

@@ -126,17 +126,16 @@ fn friction(law: &FrictionLaw) -> String {
     for c in &law.candidates {
         let _ = writeln!(
             text,
-            "{} in addition to {}: {:?} {:+.4e} ± {:.1e}, ratio {:.4}, paired {:+.2}, stretches {:.4}, at \
-             rest {:+.3e}",
-            if c.taken { "accepted" } else { "rejected" },
+            "{} in addition to {}: {:?} {:+.4e} ± {:.1e}, saves {:.2} % of blocks left out ({:+.2} standard errors), \
+             kinds of motion better: {}",
+            if c.taken { "adopted" } else { "rejected" },
             c.beside,
             c.term,
             c.amplitude.value,
             c.amplitude.std,
-            c.residual_ratio,
-            c.paired,
-            c.stretch_ratio,
-            c.at_rest
+            100.0 * c.saved,
+            c.standard_errors,
+            c.across_kinds
         );
     }
     for p in &law.curve {

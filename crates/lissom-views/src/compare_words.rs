@@ -267,7 +267,6 @@ pub(crate) fn method(result: &ComparedResultEntry) -> &'static str {
     match result.from {
         Some(MethodName::OutputError) => "output-error method",
         Some(MethodName::FrictionLaw) => "regression with a friction law",
-        Some(MethodName::RegressionByDirection) => "regression, viscous friction by direction",
         Some(MethodName::Regression) => "regression",
         Some(MethodName::LeastSquares) => "least squares",
         Some(MethodName::FrequencyResponse) => "frequency response",
@@ -285,11 +284,12 @@ fn law(terms: &[LawTermName]) -> String {
     let words = |term: &LawTermName| match term {
         LawTermName::ViscousByDirection => "viscous friction by direction",
         LawTermName::NearRest => "a change near standstill",
-        LawTermName::AfterTravel => "growth after reversals",
+        LawTermName::TorqueRipple => "torque ripple",
         LawTermName::Root => "a term with the square root of speed",
         LawTermName::WithLoad => "growth with the load",
         LawTermName::Ripple => "a ripple over the travel",
         LawTermName::CommandLag => "a lag of the command",
+        other => other.name(),
     };
     terms.iter().map(words).collect::<Vec<_>>().join(" and ")
 }

@@ -1,9 +1,7 @@
 //! Friction against speed: plot of the curve without a law and of the friction law, and table of the terms tried.
 
 use lissom::identify::NORMAL_95;
-use lissom_io::result::{
-    CurvePointEntry, DirectionName, FrictionLawEntry, LawTermEntry, MethodName,
-};
+use lissom_io::result::{CurvePointEntry, DirectionName, FrictionLawEntry, LawTermEntry};
 use lissom_io::{ResultFile, UnitNames};
 use lissom_report::{Axis, Cells, LinePlot, Role, Table, Trace, TraceStyle, significant};
 
@@ -21,7 +19,6 @@ const DIRECTIONS: [(&str, DirectionName, Role); 2] = [
 /// Plot of both directions as magnitudes over speed, with the friction law of the result, and the points and straight lines of
 /// constant velocities; `None` without a curve.
 pub fn plot(names: UnitNames, result: &ResultFile) -> Option<LinePlot> {
-    let law = result.methods.friction_law.as_ref()?;
     let curve = &result.friction.curve;
     if curve.is_empty() {
         return None;
@@ -32,14 +29,7 @@ pub fn plot(names: UnitNames, result: &ResultFile) -> Option<LinePlot> {
         Axis::linear(format!("friction against the motion ({})", names.torque_unit())),
     )
     .subtitle("points: without a friction law; bars: 95 % interval; solid lines: the friction law");
-    let replayed = result.from == Some(MethodName::OutputError);
-    let found = |speed: f64, direction| {
-        if replayed {
-            result.friction.at(names, speed, direction)
-        } else {
-            law.chosen.at(names, speed, direction)
-        }
-    };
+    let found = |speed: f64, direction| result.friction.at(names, speed, direction);
     let point = |p: &CurvePointEntry| Some((*p.speed.get(names)?, given(p.friction.get(names))?));
     for (name, direction, role) in DIRECTIONS {
         let of_direction = curve.iter().filter(|p| p.direction == direction);
@@ -88,9 +78,9 @@ pub fn table(names: UnitNames, law: &FrictionLawEntry) -> Table {
             ("terms before", Cells::Numbers),
             ("amplitude", Cells::Numbers),
             ("standard error", Cells::Numbers),
-            ("residual ratio", Cells::Numbers),
-            ("gain in left-out slip phases (standard errors)", Cells::Numbers),
-            ("residual ratio in left-out stretches", Cells::Numbers),
+            ("saved in left-out blocks (%)", Cells::Numbers),
+            ("standard errors", Cells::Numbers),
+            ("better for left-out kinds of motion", Cells::Text),
             ("", Cells::Text),
         ],
     );
@@ -101,10 +91,10 @@ pub fn table(names: UnitNames, law: &FrictionLawEntry) -> Table {
             c.beside_terms.to_string(),
             amplitude.map_or_else(String::new, |e| significant(e.value, 5)),
             amplitude.map_or_else(String::new, |e| significant(e.std, 2)),
-            format!("{:.3}", c.residual_ratio),
-            format!("{:.1}", c.paired_standard_errors),
-            format!("{:.3}", c.stretch_ratio),
-            (if c.taken { "accepted" } else { "" }).to_owned(),
+            format!("{:.2}", 100.0 * c.saved),
+            c.standard_errors.map_or_else(String::new, |t| format!("{t:.1}")),
+            (if c.across_kinds { "yes" } else { "no" }).to_owned(),
+            (if c.taken { "adopted" } else { "" }).to_owned(),
         ]);
     }
     table
@@ -113,7 +103,7 @@ pub fn table(names: UnitNames, law: &FrictionLawEntry) -> Table {
 /// Name of a term with its scale.
 fn term(names: UnitNames, term: &LawTermEntry) -> String {
     let (name, angle) = (term.term.name(), names.angle());
-    let over = term.period.get(names).or_else(|| term.travel.get(names));
+    let over = term.period.get(names);
     match (term.speed.get(names), over) {
         (Some(speed), _) => format!("{name}, {} {angle}/s", significant(*speed, 4)),
         (None, Some(over)) => format!("{name}, {} {angle}", significant(*over, 4)),

@@ -19,9 +19,8 @@ pub struct LeastSquaresRows {
 /// `None` if the result's own friction is Coulomb friction with one viscous coefficient, or without least squares.
 pub fn least_squares_rows(names: UnitNames, result: &ResultFile) -> Option<LeastSquaresRows> {
     let f = &result.friction;
-    let by_direction = f.viscous_forward.get(names).is_some();
     let by_law = result.from == Some(MethodName::FrictionLaw);
-    if f.terms.near_rest.is_none() && !by_direction && !by_law {
+    if f.law.is_none() && !by_law {
         return None;
     }
     let fit = result.methods.least_squares.as_ref()?;

@@ -4,7 +4,9 @@ use lissom::identify::Estimate;
 use lissom_io::result::finding_keys::{
     CONSTANT_VELOCITY, COULOMB, COUPLING, GRAVITY, INERTIA, MODES, OFFSET, VISCOUS,
 };
-use lissom_io::result::{ConstantVelocityEntry, DirectionName, EstimateEntry, FrictionLineEntry};
+use lissom_io::result::{
+    ConstantVelocityEntry, DirectionName, EstimateEntry, FrictionLineEntry, LawEntry,
+};
 use lissom_io::{ResultFile, UnitNames};
 
 use crate::known_arm::Reference;
@@ -75,12 +77,7 @@ pub fn parameter_rows(
         rows.push(ParameterRow { name: name.to_owned(), key, estimate, unit, known });
     };
     let mean = reference.map(|r| 0.5 * (r.coulomb_nm.0 + r.coulomb_nm.1));
-    // With another friction near standstill, this is the part that does not depend on speed.
-    let coulomb = if f.terms.near_rest.is_some() {
-        "Coulomb friction (of the law, at high speed)"
-    } else {
-        "Coulomb friction"
-    };
+    let coulomb = "Coulomb friction";
     let mean_coulomb = given(c.coulomb.get(names));
     let forward = given(c.forward.get(names));
     let backward = given(c.backward.get(names));
@@ -110,37 +107,8 @@ pub fn parameter_rows(
     }
     let viscous = reference.map(|r| r.viscous_nm_s_per_rad);
     add(VISCOUS, "viscous friction", given(f.viscous.get(names)), names.viscous_unit(), viscous);
-    for (name, one_way) in
-        [("  forward", f.viscous_forward.get(names)), ("  backward", f.viscous_backward.get(names))]
-    {
-        let Some(one_way) = one_way else { continue };
-        add(VISCOUS, name, Some(one_way.estimate()), names.viscous_unit(), None);
-    }
-    if let Some(near) = &f.terms.near_rest
-        && let Some(amplitude) = given(near.amplitude.get(names))
-    {
-        if let Some(at_rest) = given(near.static_friction.get(names)) {
-            add(COULOMB, "static friction", Some(at_rest), torque(), None);
-        }
-        let (change, size) = if amplitude.value < 0.0 { ("lower", -1.0) } else { ("higher", 1.0) };
-        let name = format!("friction near standstill {change} by");
-        add(COULOMB, &name, Some(amplitude.scaled(size)), torque(), None);
-        add(
-            COULOMB,
-            "  below a speed of about",
-            near.speed.get(names).map(EstimateEntry::estimate),
-            format!("{}/s", names.angle()),
-            None,
-        );
-    }
-    if let Some(with_load) = &f.terms.with_load {
-        let estimate = Some(with_load.estimate());
-        add(COULOMB, "friction per gravity torque, μ", estimate, "1".to_owned(), None);
-    }
-    for ripple in &f.terms.ripples {
-        let period = ripple.period.get(names).map(EstimateEntry::estimate);
-        add(COULOMB, "friction ripple", given(ripple.amplitude.get(names)), torque(), None);
-        add(COULOMB, "  period", period, names.angle().to_owned(), None);
+    for row in f.law.iter().flat_map(|law| law_rows(names, law)) {
+        add(row.key, &row.name, row.estimate, row.unit, None);
     }
     let inertia = reference.map(|r| r.inertia_kg_m2);
     let estimate = given(result.drive.inertia.get(names));
@@ -159,6 +127,60 @@ pub fn parameter_rows(
         }
     }
     rows.extend(beam_rows(names, result, reference));
+    rows
+}
+
+/// The law of friction with its own values.
+fn law_rows(names: UnitNames, law: &LawEntry) -> Vec<ParameterRow> {
+    let torque = || names.torque_unit().to_owned();
+    let mut rows = Vec::new();
+    let mut add = |key: &'static str, name: &str, estimate, unit: String| {
+        rows.push(ParameterRow { name: name.to_owned(), key, estimate, unit, known: None });
+    };
+    add(
+        COULOMB,
+        "law of friction: Coulomb friction",
+        given(law.coulomb.coulomb.get(names)),
+        torque(),
+    );
+    add(VISCOUS, "  viscous friction", given(law.viscous.get(names)), names.viscous_unit());
+    for (name, one_way) in [
+        ("  viscous friction forward", law.viscous_forward.get(names)),
+        ("  viscous friction backward", law.viscous_backward.get(names)),
+    ] {
+        let Some(one_way) = one_way else { continue };
+        add(VISCOUS, name, Some(one_way.estimate()), names.viscous_unit());
+    }
+    let terms = &law.terms;
+    if let Some(near) = &terms.near_rest
+        && let Some(amplitude) = given(near.amplitude.get(names))
+    {
+        if let Some(at_rest) = given(near.static_friction.get(names)) {
+            add(COULOMB, "  static friction", Some(at_rest), torque());
+        }
+        let (change, size) = if amplitude.value < 0.0 { ("lower", -1.0) } else { ("higher", 1.0) };
+        let name = format!("  near standstill {change} by");
+        add(COULOMB, &name, Some(amplitude.scaled(size)), torque());
+        let speed = near.speed.get(names).map(EstimateEntry::estimate);
+        add(COULOMB, "    below a speed of about", speed, format!("{}/s", names.angle()));
+    }
+    if let Some(root) = terms.root.get(names) {
+        let unit = format!("{}/√({}/s)", names.torque_unit(), names.angle());
+        add(COULOMB, "  per square root of speed", Some(root.estimate()), unit);
+    }
+    if let Some(with_load) = &terms.with_load {
+        let estimate = Some(with_load.estimate());
+        add(COULOMB, "  per gravity torque, μ", estimate, "1".to_owned());
+    }
+    for (name, ripples) in
+        [("  friction ripple", &terms.ripples), ("  torque ripple", &terms.torque_ripples)]
+    {
+        for ripple in ripples {
+            let period = ripple.period.get(names).map(EstimateEntry::estimate);
+            add(COULOMB, name, given(ripple.amplitude.get(names)), torque());
+            add(COULOMB, "    period", period, names.angle().to_owned());
+        }
+    }
     rows
 }
 

@@ -121,9 +121,8 @@ pub(crate) fn runs(id: &Identified) {
 
 /// Relative residual of the regression whose estimates are given: that with the friction law where one was chosen.
 fn residual(id: &Identified, r: &MotorRegression) -> f64 {
-    match (id.method, &id.friction_law, &r.viscous_by_direction) {
-        (Some(Method::FrictionLaw), Some(law), _) => law.relative_residual[1],
-        (Some(Method::RegressionByDirection), _, Some(split)) => split.relative_residual,
+    match (id.method, &id.friction_law) {
+        (Some(Method::FrictionLaw), Some(law)) => law.relative_residual[1],
         _ => r.relative_residual,
     }
 }

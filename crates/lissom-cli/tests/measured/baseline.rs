@@ -4,8 +4,8 @@
 use std::io::Write as _;
 
 use lissom::identify::{
-    ArmSource, DriveEstimates, Effort, FoundArm, Options, Prepared, ValidationOptions, identify,
-    least_squares, motor_regression, validate,
+    ArmSource, DriveEstimates, Effort, FoundArm, LagShape, Options, Prepared, ValidationOptions,
+    identify, least_squares, motor_regression, validate,
 };
 use lissom::record::{Campaign, Run, TimeBase};
 use lissom::replay::{DryTerms, ModalArm};
@@ -30,6 +30,7 @@ fn rigid(drive: &DriveEstimates, back_emf: f64) -> FoundArm {
         shapes: vec![],
         at_points_per_s: vec![],
         gravity: drive.gravity.map(|g| g.load()),
+        torque_ripples: Vec::new(),
         command_lag_s: 0.0,
         tip_lags_s: vec![],
     };
@@ -37,6 +38,7 @@ fn rigid(drive: &DriveEstimates, back_emf: f64) -> FoundArm {
         arm,
         coupling_alone_nm_per_rad: Vec::new(),
         source: ArmSource::Regression,
+        lag_shape: LagShape::Delay,
         torque_used: None,
     }
 }

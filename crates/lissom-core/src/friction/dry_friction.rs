@@ -1,5 +1,5 @@
-//! Dry friction of a joint in the rig: Coulomb friction by direction, friction near rest, ripple, and viscous friction
-//! that differs by direction.
+//! Dry friction of a joint in the rig: Coulomb friction by direction, friction near rest, ripple, growth with the root of
+//! speed and with the load, and viscous friction that differs by direction.
 
 use super::coulomb::Coulomb;
 use super::dry_terms::{DryTerms, TermSeries};
@@ -8,19 +8,22 @@ use super::falloff::Falloff;
 use super::near_rest::NearRest;
 use super::place::Place;
 use super::ripple::Ripple;
+use super::root::Root;
 use super::taylor_row::Row;
+use super::with_load::WithLoad;
+use crate::load::GravityLoad;
 
 /// Dry friction of a joint, with true sticking.
 ///
 /// While the joint turns forward, friction is
-/// `F = F_c + (F_s − F_c)·g(v/v_s) + r·C·cos(N·θ_m + φ) + D·|v|`. F_c is Coulomb friction and F_s friction at rest
+/// `F = F_c + (F_s − F_c)·g(v/v_s) + r·C·cos(N·θ_m + φ) + A·√|v| + μ·|g_s·sin θ_m + g_c·cos θ_m| + D·|v|`. F_c is Coulomb friction and F_s friction at rest
 /// \[N·m\]; v is the velocity of the motor and v_s the speed over which friction changes \[rad/s\]; g is 1 at rest and
 /// 0 at high speed ([`Falloff`]). r is the share of the ripple \[1\], C the mean Coulomb friction of both directions, N
-/// the number of waves per turn and φ a phase \[rad\]. D is half the difference of viscous friction by direction
-/// \[N·m·s/rad\].
+/// the number of waves per turn and φ a phase \[rad\]. A and μ are explained at [`Root`] and [`WithLoad`]. D is half the
+/// difference of viscous friction by direction \[N·m·s/rad\].
 ///
 /// While the joint turns backward, the same law holds with F_c and F_s of that direction and −D. At rest the joint
-/// holds any torque up to `F_s + r·C·cos(N·θ_m + φ)`. The mean viscous friction V belongs to the
+/// holds any torque up to `F_s + r·C·cos(N·θ_m + φ) + μ·|g_s·sin θ_m + g_c·cos θ_m|`. The mean viscous friction V belongs to the
 /// [`Motor`](crate::drive::Motor): the total is V + D forward and V − D backward.
 ///
 /// `F_s > F_c` is the Stribeck effect. With `F_s < F_c`, friction grows less than in proportion to speed: a straight
@@ -115,6 +118,28 @@ impl DryFriction {
         self.braking()
     }
 
+    /// Returns this law with friction that grows with the square root of speed, `A·√|v|` ([`Root`]).
+    ///
+    /// # Errors
+    /// [`DriveError`] unless A is finite and not negative.
+    pub fn with_root(mut self, torque_nm_per_root_rad_s: f64) -> Result<Self, DriveError> {
+        not_negative("torque of the square root of speed", torque_nm_per_root_rad_s)?;
+        self.terms.root = Some(Root { torque_nm_per_root_rad_s });
+        Ok(self)
+    }
+
+    /// Returns this law with friction that grows with the torque of gravity: `coefficient` (μ) times that of `load`
+    /// ([`WithLoad`]). It does not make this gravity act on the joint.
+    ///
+    /// # Errors
+    /// [`DriveError`] unless μ and the load are finite and μ is not negative.
+    pub fn with_load(mut self, coefficient: f64, load: GravityLoad) -> Result<Self, DriveError> {
+        not_negative("friction coefficient of the load", coefficient)?;
+        not_negative("load of the friction", load.amplitude_nm())?;
+        self.terms.with_load = Some(WithLoad { coefficient, load });
+        Ok(self)
+    }
+
     /// Returns this law with `apart_nm_s_per_rad` (D) more viscous friction forward, and D less backward.
     ///
     /// # Errors
@@ -154,6 +179,12 @@ impl DryFriction {
             ripple.cosine_nm *= factor;
             ripple.sine_nm *= factor;
         }
+        if let Some(root) = &mut scaled.terms.root {
+            root.torque_nm_per_root_rad_s *= factor;
+        }
+        if let Some(load) = &mut scaled.terms.with_load {
+            load.coefficient *= factor;
+        }
         scaled
     }
 
@@ -162,7 +193,7 @@ impl DryFriction {
         self.sliding
     }
 
-    /// Friction near rest and ripple.
+    /// All terms besides Coulomb friction and viscous friction.
     pub fn terms(&self) -> &DryTerms {
         &self.terms
     }
@@ -172,7 +203,9 @@ impl DryFriction {
         let rest = self.at(0.0, 0.0);
         let (forward, backward) = (rest.forward(), rest.backward());
         let none = self.sliding.forward() == 0.0 && self.sliding.backward() == 0.0;
-        none && forward == 0.0 && backward == 0.0 && self.viscous_apart_nm_s_per_rad == 0.0
+        let by_speed = self.viscous_apart_nm_s_per_rad != 0.0
+            || self.terms.root.is_some_and(|r| r.torque_nm_per_root_rad_s != 0.0);
+        none && forward == 0.0 && backward == 0.0 && !by_speed
     }
 
     /// Whether friction is constant while the joint slips, so that the motion between events is linear.
@@ -191,6 +224,13 @@ impl DryFriction {
             self.sliding.backward() + terms(-1.0) - apart,
         )
     }
+}
+
+fn not_negative(quantity: &'static str, found: f64) -> Result<(), DriveError> {
+    if found >= 0.0 && found.is_finite() {
+        return Ok(());
+    }
+    Err(DriveError::Negative { quantity, found })
 }
 
 /// Taylor coefficients of a friction torque along a motion, one after the other.
@@ -229,6 +269,8 @@ mod tests {
                 .with_rest(Coulomb::by_direction(0.05, 0.015).unwrap(), 0.7, falloff)
                 .and_then(|law| law.with_ripple(0.3, 7.0, 0.4))
                 .and_then(|law| law.with_viscous_apart(4e-3))
+                .and_then(|law| law.with_root(0.02))
+                .and_then(|law| law.with_load(0.1, GravityLoad { sine_nm: 0.3, cosine_nm: 0.1 }))
                 .unwrap();
             for sign in [1.0, -1.0] {
                 let mut angle = [0.0; COEFFICIENTS];
@@ -258,6 +300,11 @@ mod tests {
         assert!(law.clone().with_ripple(0.1, 0.0, 0.0).is_err());
         assert!(law.clone().with_ripple(0.1, 6.0, f64::INFINITY).is_err());
         assert!(law.clone().with_viscous_apart(f64::NAN).is_err());
+        assert!(law.clone().with_root(-0.1).is_err() && law.clone().with_root(f64::NAN).is_err());
+        let load = GravityLoad { sine_nm: 1.0, cosine_nm: 0.0 };
+        assert!(law.clone().with_load(-0.1, load).is_err());
+        let infinite = GravityLoad { sine_nm: f64::INFINITY, ..load };
+        assert!(law.clone().with_load(0.1, infinite).is_err());
         let least = Coulomb::symmetric(0.01).unwrap();
         let rippled = law.with_ripple(0.5, 6.0, 0.0).unwrap();
         assert!(rippled.with_rest(least, 1.0, Falloff::Gaussian).is_err());

@@ -13,7 +13,10 @@ mod near_rest;
 mod phase_series;
 mod place;
 mod ripple;
+mod root;
+mod square_root_series;
 mod taylor_row;
+mod with_load;
 
 pub(crate) use bristle_step::{BristleStep, LinearStep};
 pub(crate) use bristles::Bristles;
@@ -30,3 +33,5 @@ pub use near_rest::{NearRest, NearRestNumber};
 pub(crate) use phase_series::PhaseSeries;
 pub(crate) use place::Place;
 pub use ripple::{Ripple, RippleNumber};
+pub use root::{ROOT_SPEED_RAD_S, Root};
+pub use with_load::{ROUNDED_LOAD_SHARE, WithLoad};

@@ -13,8 +13,6 @@ pub enum Method {
     OutputError,
     /// Regression in slip phases with the simplest friction law that the data do not reject.
     FrictionLaw,
-    /// Regression in slip phases with viscous friction by direction.
-    RegressionByDirection,
     /// Regression in slip phases with Coulomb friction and one viscous coefficient.
     Regression,
     /// Ordinary least squares of smoothed samples.
@@ -33,7 +31,6 @@ impl Method {
         match self {
             Self::OutputError => "output_error",
             Self::FrictionLaw => "friction_law",
-            Self::RegressionByDirection => "regression_by_direction",
             Self::Regression => "regression",
             Self::LeastSquares => "least_squares",
             Self::FrequencyResponse => "frequency_response",
@@ -52,9 +49,6 @@ impl Method {
             }
             Self::FrictionLaw => {
                 "regression in slip phases, with the friction law that the data support"
-            }
-            Self::RegressionByDirection => {
-                "regression in slip phases, with viscous friction by direction"
             }
             Self::Regression => "regression in slip phases",
             Self::LeastSquares => "ordinary least squares",

@@ -1,15 +1,17 @@
 //! The arm of a result, which predicts other logs.
 
+use std::borrow::Cow;
+
 use crate::identify::drive_estimates::{DriveEstimates, Method};
-use crate::identify::judge::{Chosen, Evidence, slip_phase_solution};
-use crate::identify::methods::friction_law::FrictionLaw;
+use crate::identify::judge::{Chosen, Evidence};
+use crate::identify::methods::friction_law::{LagShape, delayed};
 use crate::identify::methods::output_error::{rigid, starts, starts_by_motor};
 use crate::identify::methods::starting_arms::flexible;
 use crate::identify::thresholds::REFUSED_TORQUE;
 use crate::identify::validation::torque::torque_error;
 use crate::identify::validation::torque_arm::TorqueArm;
 use crate::identify::validation::zeros::zeros;
-use crate::record::Campaign;
+use crate::record::{Campaign, CommandQuantity};
 use crate::replay::ModalArm;
 
 /// The method that an arm comes from.
@@ -31,6 +33,8 @@ pub struct FoundArm {
     pub coupling_alone_nm_per_rad: Vec<f64>,
     /// The method that the arm comes from.
     pub source: ArmSource,
+    /// Whether the arm's lag of the command is a delay or the time constant of a first-order filter.
+    pub lag_shape: LagShape,
     /// Prediction of the torque of the logs that were used; `None` if the tips do not determine the coupling torque.
     pub torque_used: Option<TorqueUsed>,
 }
@@ -45,30 +49,47 @@ pub struct TorqueUsed {
 }
 
 impl FoundArm {
-    /// The arm of the solution that was taken, whole; where that has a friction law that an arm cannot have, the arm
-    /// of the regression without it, whole as well. `None` where inertia or Coulomb friction is refused or the method
-    /// gives no whole arm.
+    /// The arm of the solution that was taken, whole: with the law of friction, if it has one. `None` where inertia or Coulomb
+    /// friction is refused or the method gives no whole arm.
     pub(super) fn of(evidence: &Evidence<'_>, chosen: &Chosen) -> Option<Self> {
         let used = evidence.used;
+        let law = evidence.methods.friction_law.as_ref();
+        let lag = law.and_then(|law| law.lag);
+        let shape = lag.map_or(LagShape::Delay, |lag| lag.shape);
         if let Some(oe) = evidence.replay() {
-            return Some(Self::with(oe.arm.clone(), Vec::new(), ArmSource::OutputError, used));
+            let mut arm = oe.arm.clone();
+            let before = lag.filter(|lag| !lag.is_delay_of(evidence.campaign));
+            arm.command_lag_s += before.map_or(0.0, |lag| lag.time_s);
+            return Some(Self::with(arm, Vec::new(), ArmSource::OutputError, shape, used));
         }
         let supported = &chosen.drive;
         let (Some(_), Some(_)) = (supported.inertia, supported.friction.coulomb) else {
             return None;
         };
         let drive = &chosen.solution;
-        let regression = evidence.methods.regression.as_ref();
-        let law = evidence.methods.friction_law.as_ref();
-        let arm = match chosen.method? {
-            Method::FrictionLaw => lawful(evidence, law?, drive)
-                .or_else(|| of_drive(evidence, &slip_phase_solution(regression, None)?.1)),
-            _ => of_drive(evidence, drive),
+        let (arm, coupling_alone) = of_drive(evidence, drive)
+            .map(|arm| (arm, Vec::new()))
+            .or_else(|| without_modes(used, drive))?;
+        let arm = match (chosen.method?, law) {
+            (Method::FrictionLaw, Some(law)) => {
+                law.chosen.put_into(arm, used.channels.command.back_emf_viscous)?
+            }
+            _ => arm,
         };
-        let (mut arm, coupling_alone) =
-            arm.map(|arm| (arm, Vec::new())).or_else(|| without_modes(used, drive))?;
-        arm.command_lag_s += regression.and_then(|r| r.lag).map_or(0.0, |lag| lag.time_s);
-        Some(Self::with(arm, coupling_alone, ArmSource::Regression, used))
+        Some(Self::with(arm, coupling_alone, ArmSource::Regression, shape, used))
+    }
+
+    /// The same without its lag of the command, and a campaign whose commands are as late: a filter, and the late goal of a
+    /// servo, are no delay of the torque.
+    pub(super) fn in_time<'c>(&self, campaign: &'c Campaign) -> (Self, Cow<'c, Campaign>) {
+        let goal = campaign.channels.command.quantity == CommandQuantity::PositionError;
+        let time_s = self.arm.command_lag_s;
+        if time_s == 0.0 || !(goal || self.lag_shape == LagShape::Filter) {
+            return (self.clone(), Cow::Borrowed(campaign));
+        }
+        let mut found = self.clone();
+        found.arm.command_lag_s = 0.0;
+        (found, Cow::Owned(delayed(campaign, self.lag_shape, time_s)))
     }
 
     /// Whether it predicts the torque of the logs that it is from, where these show it.
@@ -87,11 +108,18 @@ impl FoundArm {
         TorqueArm { arm: &self.arm, coupling_alone_nm_per_rad }
     }
 
-    fn with(arm: ModalArm, coupling_alone: Vec<f64>, source: ArmSource, used: &Campaign) -> Self {
+    fn with(
+        arm: ModalArm,
+        coupling_alone_nm_per_rad: Vec<f64>,
+        source: ArmSource,
+        lag_shape: LagShape,
+        used: &Campaign,
+    ) -> Self {
         let mut found =
-            Self { arm, coupling_alone_nm_per_rad: coupling_alone, source, torque_used: None };
-        let arm = found.for_torque();
-        found.torque_used = torque_error(arm, used, &zeros(arm, used))
+            Self { arm, coupling_alone_nm_per_rad, source, lag_shape, torque_used: None };
+        let (in_time, used) = found.in_time(used);
+        let arm = in_time.for_torque();
+        found.torque_used = torque_error(arm, &used, &zeros(arm, &used))
             .map(|(window_s, relative_error)| TorqueUsed { relative_error, window_s });
         found
     }
@@ -124,10 +152,4 @@ fn of_drive(evidence: &Evidence<'_>, drive: &DriveEstimates) -> Option<ModalArm>
         starts(used, drive, methods.beam_regression.as_ref(), methods.beam_model.as_ref())
     };
     arms.into_iter().next()
-}
-
-/// The same with the terms of a friction law; `None` where an arm cannot have one of them.
-fn lawful(evidence: &Evidence<'_>, law: &FrictionLaw, drive: &DriveEstimates) -> Option<ModalArm> {
-    let mut arm = of_drive(evidence, drive)?;
-    law.chosen.put_terms_into(&mut arm).then_some(arm)
 }

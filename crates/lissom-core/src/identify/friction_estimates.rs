@@ -1,6 +1,7 @@
 //! Estimates of friction.
 
 use crate::drive::Falloff;
+use crate::friction::Root;
 use crate::identify::estimate::Estimate;
 use crate::identify::methods::friction_law::thresholds::NEGLIGIBLE_TERM;
 use crate::identify::methods::friction_law::{LawTerm, NEAR_REST_STEP};
@@ -8,53 +9,90 @@ use crate::identify::thresholds::SIGN_SHOWN;
 use crate::replay::{DryTerms, FrictionNumber, NearRestNumber};
 
 /// Friction, as torque \[N·m\] or force \[N\]; in the unit of the command if the torque constant is unknown.
+///
+/// The line F = C + V·|v| is what results are compared by: where friction has further terms, it is the line that is nearest
+/// to the whole law at the speeds of the log, weighted with time, without a load.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct Friction {
-    /// Coulomb friction, mean of both directions.
+    /// Coulomb friction of the line, mean of both directions.
     pub coulomb: Option<Estimate>,
-    /// Coulomb friction while moving forward, a magnitude.
+    /// The same while moving forward, a magnitude.
     pub forward: Option<Estimate>,
-    /// Coulomb friction while moving backward, a magnitude.
+    /// The same while moving backward, a magnitude.
     pub backward: Option<Estimate>,
     /// Offset, (forward − backward)/2.
     pub offset: Option<Estimate>,
-    /// Viscous friction \[N·m·s/rad\], without the damping by back-EMF.
+    /// Viscous friction of the line \[N·m·s/rad\], without the damping by back-EMF.
     pub viscous: Option<Estimate>,
-    /// Viscous friction forward and backward, if the data reject one constant for both.
+    /// The whole law, if it has terms beyond the line.
+    pub law: Option<LawEstimates>,
+}
+
+/// A friction law with terms beyond Coulomb and one viscous friction: its own values, which predict friction.
+///
+/// `s·(C + A_s·e^{−|v|/v_s} + A_r·√|v| + μ·|τ_g| + Σ A·cos(kθ + φ)) + O + V_±·v`, and torque ripples.
+#[derive(Debug, Clone, Default, PartialEq)]
+pub struct LawEstimates {
+    /// Coulomb friction C, mean of both directions.
+    pub coulomb: Option<Estimate>,
+    /// The same while moving forward, a magnitude.
+    pub forward: Option<Estimate>,
+    /// The same while moving backward, a magnitude.
+    pub backward: Option<Estimate>,
+    /// Viscous friction V, mean of both directions \[N·m·s/rad\], without the damping by back-EMF.
+    pub viscous: Option<Estimate>,
+    /// Viscous friction forward and backward, if they differ.
     pub viscous_by_direction: Option<(Estimate, Estimate)>,
-    /// Change of friction near rest, if the data require it.
+    /// Change of friction near rest.
     pub near_rest: Option<NearRestEstimate>,
-    /// Coefficient μ of friction that grows with the torque τ_g of gravity, `s·μ·|τ_g|` \[1\], if the data show it.
+    /// Coefficient A_r of friction that grows with the square root of speed \[N·m/√(rad/s)\].
+    pub root: Option<Estimate>,
+    /// Coefficient μ of friction that grows with the torque τ_g of gravity, `s·μ·|τ_g|` \[1\].
     pub with_load: Option<Estimate>,
-    /// Ripples of friction over the travel, if the data show them.
+    /// Ripples of friction over the travel.
     pub ripples: Vec<RippleEstimate>,
+    /// Ripples of torque over the travel (cogging), which act in both directions alike.
+    pub torque_ripples: Vec<RippleEstimate>,
 }
 
 impl Friction {
-    /// Friction against the motion at a speed in a direction (+1 or −1) \[N·m\], without ripples; positive if it
+    /// Friction against the motion at a speed in a direction (+1 or −1) without a load \[N·m\], without ripples; positive if it
     /// brakes. `None` if one of its parameters is refused.
     ///
-    /// `CF_± + V_±·|v| + A_s·e^{−|v|/v_s}`, or `A_s·e^{−(v/v_s)²}` for the last term.
+    /// `CF_± + V_±·|v| + A_s·e^{−|v|/v_s} + A_r·√|v|` of the law, or the line without one.
     pub fn at(&self, speed: f64, direction: f64) -> Option<f64> {
         let forward = direction > 0.0;
-        let coulomb = if forward { self.forward } else { self.backward }?;
-        let viscous = match self.viscous_by_direction {
-            Some((by_forward, by_backward)) => {
-                if forward {
-                    by_forward
-                } else {
-                    by_backward
-                }
-            }
-            None => self.viscous?,
+        let one_way = |f: Option<Estimate>, b: Option<Estimate>| if forward { f } else { b };
+        let Some(law) = &self.law else {
+            return Some(one_way(self.forward, self.backward)?.value + self.viscous?.value * speed);
+        };
+        let viscous = match law.viscous_by_direction {
+            Some((f, b)) => one_way(Some(f), Some(b))?,
+            None => law.viscous?,
         };
         let near =
-            self.near_rest.map_or(0.0, |n| n.torque.value * n.falloff.share(speed / n.speed.value));
-        Some(coulomb.value + viscous.value * speed + near)
+            law.near_rest.map_or(0.0, |n| n.torque.value * n.falloff.share(speed / n.speed.value));
+        let root = law.root.map_or(0.0, |r| r.value * Root::growth(speed));
+        Some(one_way(law.forward, law.backward)?.value + viscous.value * speed + near + root)
+    }
+
+    /// Whether a term changes this friction by less than [`NEGLIGIBLE_TERM`].
+    pub(crate) fn hardly_has(&self, (term, amplitude): &(LawTerm, Vec<Estimate>)) -> bool {
+        let of = match term {
+            LawTerm::ViscousByDirection => self.viscous,
+            LawTerm::NearRest { .. } | LawTerm::Ripple { .. } | LawTerm::TorqueRipple { .. } => {
+                self.coulomb
+            }
+            // Never taken for that little.
+            LawTerm::Root | LawTerm::WithLoad { .. } => None,
+            LawTerm::CommandLag => return true,
+        };
+        let largest = amplitude.iter().take(2).map(|a| a.value.abs()).fold(0.0, f64::max);
+        of.is_some_and(|of| largest < NEGLIGIBLE_TERM * of.value)
     }
 }
 
-impl Friction {
+impl LawEstimates {
     /// The estimates of the terms of an arm: `number` gives that of one of their numbers where it was free, `any` that
     /// of anything made of them.
     pub(crate) fn of_terms(
@@ -84,8 +122,9 @@ impl Friction {
         let mut found = Self::default();
         for (term, amplitude) in terms {
             match (*term, &amplitude[..]) {
-                (LawTerm::NearRest { speed, falloff }, [torque]) => {
-                    let speed = Estimate { value: speed, std: NEAR_REST_STEP * speed };
+                (LawTerm::NearRest { speed, falloff }, [torque, scanned @ ..]) => {
+                    let listed = Estimate { value: speed, std: NEAR_REST_STEP * speed };
+                    let speed = scanned.first().copied().unwrap_or(listed);
                     found.near_rest = at_rest.map(|at_rest| NearRestEstimate {
                         torque: *torque,
                         at_rest,
@@ -93,15 +132,13 @@ impl Friction {
                         falloff,
                     });
                 }
+                (LawTerm::Root, [root]) => found.root = Some(*root),
                 (LawTerm::WithLoad { .. }, [coefficient]) => found.with_load = Some(*coefficient),
-                (LawTerm::Ripple { per_angle }, [cosine, sine, rate @ ..]) => {
-                    let unknown = Estimate { value: per_angle, std: f64::INFINITY };
-                    let torque = Estimate {
-                        value: cosine.value.hypot(sine.value),
-                        std: cosine.std.hypot(sine.std),
-                    };
-                    let per_angle = rate.first().copied().unwrap_or(unknown);
-                    found.ripples.push(RippleEstimate { torque, per_angle });
+                (LawTerm::Ripple { per_angle }, amplitude) => {
+                    found.ripples.extend(RippleEstimate::of(per_angle, amplitude));
+                }
+                (LawTerm::TorqueRipple { per_angle }, amplitude) => {
+                    found.torque_ripples.extend(RippleEstimate::of(per_angle, amplitude));
                 }
                 _ => {}
             }
@@ -109,17 +146,15 @@ impl Friction {
         found
     }
 
-    /// Whether a term changes this friction by less than [`NEGLIGIBLE_TERM`].
-    pub(crate) fn hardly_has(&self, (term, amplitude): &(LawTerm, Vec<Estimate>)) -> bool {
-        let of = match term {
-            LawTerm::ViscousByDirection => self.viscous,
-            LawTerm::NearRest { .. } | LawTerm::Ripple { .. } => self.coulomb,
-            // Never taken for that little.
-            LawTerm::Root | LawTerm::AfterTravel { .. } | LawTerm::WithLoad { .. } => None,
-            LawTerm::CommandLag => return true,
-        };
-        let largest = amplitude.iter().take(2).map(|a| a.value.abs()).fold(0.0, f64::max);
-        of.is_some_and(|of| largest < NEGLIGIBLE_TERM * of.value)
+    /// Whether there is a term beyond the line.
+    pub(crate) fn has_terms(&self) -> bool {
+        let Self { viscous_by_direction, near_rest, root, with_load, .. } = self;
+        viscous_by_direction.is_some()
+            || near_rest.is_some()
+            || root.is_some()
+            || with_load.is_some()
+            || !self.ripples.is_empty()
+            || !self.torque_ripples.is_empty()
     }
 
     /// Its terms as those of a law, with their amplitudes.
@@ -164,6 +199,15 @@ pub struct RippleEstimate {
 }
 
 impl RippleEstimate {
+    /// Of the amplitudes of cosine and sine, and of the frequency where it was estimated with them.
+    fn of(per_angle: f64, amplitude: &[Estimate]) -> Option<Self> {
+        let [cosine, sine, rate @ ..] = amplitude else { return None };
+        let unknown = Estimate { value: per_angle, std: f64::INFINITY };
+        let torque =
+            Estimate { value: cosine.value.hypot(sine.value), std: cosine.std.hypot(sine.std) };
+        Some(Self { torque, per_angle: rate.first().copied().unwrap_or(unknown) })
+    }
+
     /// Period 2π/k \[rad or m\]; its relative standard error is that of k.
     pub fn period(&self) -> Estimate {
         let value = std::f64::consts::TAU / self.per_angle.value;

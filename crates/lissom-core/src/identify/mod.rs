@@ -35,7 +35,7 @@ pub use equivalent::{
 pub use estimate::{Estimate, ModeEstimate, NORMAL_95};
 pub use findings::{Finding, FindingKind, Severity};
 pub use found_arm::{ArmSource, FoundArm, TorqueUsed};
-pub use friction_estimates::{Friction, NearRestEstimate, RippleEstimate};
+pub use friction_estimates::{Friction, LawEstimates, NearRestEstimate, RippleEstimate};
 pub use geometry::{ArmQuantity, Explanation, GeometryCheck, geometry_check};
 pub use gravity_estimate::Gravity;
 pub use identified::{BeamEstimates, Identified};
@@ -44,7 +44,8 @@ pub use methods::constant_velocity::{
     ConstantVelocity, FrictionLine, LineError, LineShape, constant_velocity,
 };
 pub use methods::friction_law::{
-    CurvePoint, FrictionLaw, LawCandidate, LawFit, LawTerm, ScaleUnit,
+    AngleLag, CurvePoint, FrictionLaw, LagShape, LawCandidate, LawFit, LawTerm, MissingKind,
+    MissingTerm, ModelTerm, Moved, ScaleUnit,
 };
 pub use methods::least_squares::{LeastSquares, least_squares};
 pub use methods::output_error::{
@@ -52,9 +53,8 @@ pub use methods::output_error::{
     output_error, starts, starts_by_motor, starts_by_responses,
 };
 pub use methods::regression::{
-    AngleLag, BeamRegression, ByDirection, Candidate, GravityPartner, HiddenMode, HoldEvidence,
-    HoldShown, LagShape, LeftTorque, MissingKind, MissingTerm, MotorRegression, Moved, OtherHold,
-    RunDifference, beam_regression, hold_shown, motor_regression,
+    BeamRegression, Candidate, GravityPartner, HiddenMode, HoldEvidence, HoldShown, LeftTorque,
+    MotorRegression, OtherHold, RunDifference, beam_regression, hold_shown, motor_regression,
 };
 pub use methods::third_harmonic::{PairEstimate, ThirdHarmonic, mean_estimate, pair_estimate};
 pub use options::{Effort, Options};

@@ -8,7 +8,7 @@ use crate::identify::findings::{EquivalentFinding, EstimateUnits, Finding, Regre
 use crate::identify::identified::Identified;
 use crate::identify::judge::{Evidence, Methods, conclude, slip_phase_solution, slip_phase_terms};
 use crate::identify::methods::constant_velocity;
-use crate::identify::methods::friction_law::{LawTerm, friction_law};
+use crate::identify::methods::friction_law::{FrictionLaw, friction_law, mode_predicts_better};
 use crate::identify::methods::least_squares::least_squares;
 use crate::identify::methods::output_error::thresholds::COMMAND_NOISE_MOST;
 use crate::identify::methods::output_error::{
@@ -16,7 +16,7 @@ use crate::identify::methods::output_error::{
 };
 use crate::identify::methods::regression::thresholds::FEW_PHASES;
 use crate::identify::methods::regression::{
-    BeamRegression, LagShape, MotorRegression, beam_regression, other_hold,
+    BeamRegression, MotorRegression, beam_regression, other_hold,
 };
 use crate::identify::methods::rigid_equation::rigid_equation;
 use crate::identify::methods::starting_arms::starting_arms;
@@ -122,6 +122,7 @@ impl Stage {
 ///
 /// # Errors
 /// [`IdentifyError`] if no run moves, or if an option is not valid. Everything else is reported by findings.
+#[expect(clippy::too_many_lines, reason = "the order of the methods, in one place")]
 pub fn identify(
     campaign: &Campaign,
     options: &Options,
@@ -137,30 +138,34 @@ pub fn identify(
     progress(Stage::Regression);
     // From constant velocities alone it is accepted if their transitions show the inertia.
     let doubted = prepared.has_only_constant_velocities() && constant_velocity.is_some();
-    let (prepared, any_regression) = regression_of_like_runs(prepared, options);
-    let any_regression = any_regression.filter(|r| !doubted || is_sound_alone(r));
-    let regression_missing = any_regression.as_ref().and_then(|r| r.missing);
+    let (prepared, line_of_runs) = regression_of_like_runs(prepared, options);
+    let mut any_regression = line_of_runs.filter(|r| !doubted || is_sound_alone(r));
+    progress(Stage::Beam);
+    if let Some(rigid) = &any_regression
+        && let Some(flexible) = &rigid.with_mode
+        && mode_predicts_better(&prepared, rigid, flexible)
+    {
+        let (left_out, beside_others) = (rigid.left_out.clone(), rigid.beside_others.clone());
+        any_regression = Some(MotorRegression { left_out, beside_others, ..(**flexible).clone() });
+    }
+    // Each loops over the runs on all threads, and leaves some of them idle between its loops.
+    let (model, beside) = rayon::join(
+        || any_regression.as_ref().and_then(|r| friction_law(&prepared, r)),
+        || (beam_regression(&prepared), third_harmonic(&prepared)),
+    );
+    let sound = any_regression.as_ref().filter(|r| r.relative_residual < REFUSED_TORQUE);
+    let hold = sound.and_then(|r| assumed_hold(prepared.used(), options, r));
+    let moves = model.as_ref().map_or_else(Vec::new, |(model, _)| model.moves.clone());
+    let missing = model.as_ref().map_or_else(Vec::new, |(model, _)| model.missing.clone());
     let regression_residual = any_regression.as_ref().map(|r| r.relative_residual);
+    let lag = model.as_ref().and_then(|(model, _)| model.lag);
     let regression = any_regression.clone().filter(|r| r.relative_residual < REFUSED_TORQUE);
-    let hold = regression.as_ref().and_then(|r| assumed_hold(prepared.used(), options, r));
+    let law = model.filter(|_| regression.is_some());
     // What is found on slip phases is of commands that are as late as the angle.
-    let lag = regression.as_ref().and_then(|r| r.lag);
     let late = lag.map(|lag| prepared.using(lag.late(prepared.used())));
     let in_time = late.as_ref().unwrap_or(&prepared);
-    progress(Stage::Beam);
     let window_s = regression.as_ref().map(|r| r.window_s);
-    // Near reversals a lag of a slightly other shape looks like friction near rest.
-    let without_lag = regression.as_ref().filter(|r| r.lag.is_none());
-    // Each loops over the runs on all threads, and leaves some of them idle between its loops.
-    let (law, (beside, line)) = rayon::join(
-        || without_lag.and_then(|r| friction_law(&prepared, r)),
-        || {
-            rayon::join(
-                || (beam_regression(&prepared), third_harmonic(&prepared)),
-                || least_squares(in_time, window_s),
-            )
-        },
-    );
+    let line = least_squares(in_time, window_s);
     let (any_beam_regression, third_harmonic) = beside;
 
     let constant = campaign.channels.command.torque_per_unit();
@@ -171,27 +176,34 @@ pub fn identify(
     let replayed = any_regression.filter(|_| options.effort != Effort::Quick);
     let command_noise = replayed.as_ref().and_then(|r| command_noise(prepared.used(), r));
     let command_noise = command_noise.filter(|ratio| *ratio > COMMAND_NOISE_MOST);
-    // A replay knows a delay of the command, but no filter.
-    let filtered = lag.is_some_and(|lag| lag.shape == LagShape::Filter);
-    let rigid = prepared.used().channels.tips.is_empty();
-    let replayable = replayed.filter(|_| command_noise.is_none() && !(filtered && rigid));
+    let replayable = replayed.filter(|_| command_noise.is_none());
     let output_error = replayable.and_then(|motor| {
         progress(Stage::OutputError);
         let corrected = || tables.with_square_wave(best);
         let (beam, tips) = (any_beam_regression.as_ref(), tips_model.as_ref());
-        let arms = starting_arms(prepared.used(), &motor, beam, tips, &shown, corrected);
-        let tried = law.as_ref().map(|(law, _)| law.tried());
-        output_error(&prepared, &start_of(&prepared, options, arms, (&motor, tried)))
+        let law = law.as_ref().map(|(law, _)| law);
+        let drive = law.map_or_else(|| motor.estimates(), |law| law.chosen.estimates());
+        // A replay knows a delay of the command, which it finds best itself, but no filter and no late goal.
+        let delay = lag.filter(|lag| lag.is_delay_of(campaign));
+        let replayed = if delay.is_some() { &prepared } else { in_time };
+        let lag_s = delay.map_or(0.0, |lag| lag.time_s);
+        let known = (&drive, &motor, lag_s);
+        let arms = starting_arms(replayed.used(), known, beam, tips, &shown, corrected);
+        output_error(replayed, &start_of(replayed, options, arms, (&motor, law)))
     });
     let lawful = law.as_ref().is_some_and(|(law, _)| law.chosen.departs());
-    let doubted = regression_missing.is_some() && !lawful;
-    let varies = !lawful && regression.as_ref().is_some_and(|r| r.varies_by().is_some());
+    let doubted = !missing.is_empty() && !lawful;
+    let line_holds = !lawful && missing.is_empty();
+    let varies = line_holds && regression.as_ref().is_some_and(|r| r.varies_by().is_some());
     let output_error = output_error.map(|oe| oe.beside_regression(doubted, varies));
     let stands = output_error.as_ref().is_some_and(OutputError::stands);
     let rigid = regression.as_ref().filter(|_| !stands);
     let rigid = rigid.and_then(|r| rigid_equation(&prepared, options, r));
     let (without_coupling, regression, law, line) = match rigid {
-        None => (None, regression, law, line),
+        None => {
+            let regression = regression.map(|r| r.widened(&moves));
+            (None, regression, law, line)
+        }
         Some(rigid) => (Some(rigid.finding), Some(rigid.regression), rigid.law, rigid.line),
     };
 
@@ -203,7 +215,8 @@ pub fn identify(
     let explained = phases.as_ref().zip(regression.as_ref()).and_then(|((method, drive), r)| {
         Some((r, drive, slip_phase_terms(*method, Some(r), friction_law.as_ref())?))
     });
-    let by_regression = estimates_model(campaign, explained, beam_regression.as_ref());
+    let by_regression =
+        estimates_model(campaign, explained, friction_law.as_ref(), beam_regression.as_ref());
     let rigid = output_error.as_ref().and_then(|oe| rigid_model(campaign, oe));
     let Responses { points, motor_model, beam_model, findings: response_findings } =
         tables.with_models(replay, tips_model, by_regression, rigid);
@@ -216,7 +229,7 @@ pub fn identify(
         third_harmonic_model,
         regression,
         regression_residual,
-        regression_missing,
+        missing,
         least_squares: line,
         friction_law,
         constant_velocity,
@@ -302,7 +315,7 @@ fn start_of(
     prepared: &Prepared<'_>,
     options: &Options,
     arms: Vec<ModalArm>,
-    (motor, terms): (&MotorRegression, Option<Vec<LawTerm>>),
+    (motor, law): (&MotorRegression, Option<&FrictionLaw>),
 ) -> OutputErrorStart {
     let omega = |&i: &usize| match &prepared.runs()[i].kind {
         RunKind::Sinusoidal(s) => Some(s.omega_rad_s),
@@ -315,6 +328,6 @@ fn start_of(
         most_evaluations: options.evaluations(),
         interrupt: options.interrupt.clone(),
         friction_varies: motor.varies_by().is_some(),
-        law: terms.unwrap_or_default(),
+        law: law.map(FrictionLaw::tried).unwrap_or_default(),
     }
 }

@@ -129,9 +129,9 @@ pub fn additions(
     motions.par_iter().filter_map(addition).collect()
 }
 
-/// Largest torque of gravity.
+/// Largest torque of gravity and torque ripples.
 fn load_nm(arm: &ModalArm) -> f64 {
-    arm.gravity.map_or(0.0, |load| load.amplitude_nm())
+    arm.position_torque().largest_nm()
 }
 
 /// Largest torque that does not grow with the amplitude.
@@ -221,7 +221,8 @@ impl FollowedPlan {
     ) -> Option<(Campaign, Window)> {
         let constant = channels.command.torque_per_command.unwrap_or(1.0);
         let motor: Vec<f64> = self.angle.iter().map(|angle| amplitude * angle).collect();
-        let load = |angle: f64| arm.gravity.map_or(0.0, |load| load.torque_nm(angle));
+        let position = arm.position_torque();
+        let load = |angle: f64| position.torque_nm(angle);
         let torque = |((linear, direction), w): ((&f64, &f64), &[f64])| {
             let load = 0.5 * (load(w[0]) + load(w[1]));
             (amplitude * linear + arm.coulomb_nm * direction + arm.offset_nm + load) / constant

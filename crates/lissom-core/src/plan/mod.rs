@@ -211,8 +211,8 @@ struct Candidate {
 /// Finds the campaign that gives the requested precision in the shortest time, by simulating a rig with rough parameters.
 /// `progress` is called with the number of motions tried and the number of all motions.
 ///
-/// Friction terms beyond Coulomb and viscous friction and the world at the tip (see [`Scene`]) are left out. Gravity of a
-/// rigid joint's load is included: motions are simulated with it, and g_s and g_c are two further unknowns.
+/// Friction terms beyond Coulomb and viscous friction, torque ripples and the world at the tip (see [`Scene`]) are left out.
+/// Gravity of a rigid joint's load is included: motions are simulated with it, and g_s and g_c are two further unknowns.
 ///
 /// # Errors
 /// [`PlanError`].

@@ -135,8 +135,8 @@ impl fmt::Display for PlanNote {
             }
             Self::SceneLeftOut => write!(
                 f,
-                "the plan assumes Coulomb and viscous friction only, and a free tip: friction near rest, ripple, bristles and \
-                 [tip] are not in it"
+                "the plan assumes Coulomb and viscous friction only, and a free tip: other terms of friction, torque \
+                 ripples and [tip] are not in it"
             ),
             Self::GravityByRegression => write!(
                 f,
@@ -161,7 +161,9 @@ fn duration(time_s: f64) -> String {
 pub(super) fn of_rig(rig: &Rig, known: &KnownRig<'_>) -> Vec<PlanNote> {
     let mut notes = Vec::new();
     let scene = &rig.scene;
-    if scene.friction != JointFriction::Arm || !scene.tip.is_empty() || !scene.later.is_empty() {
+    let ripples = !scene.torque_ripples.is_empty();
+    let tip = !scene.tip.is_empty() || !scene.later.is_empty();
+    if scene.friction != JointFriction::Arm || ripples || tip {
         notes.push(PlanNote::SceneLeftOut);
     }
     if known.gravity.is_some() {

@@ -272,6 +272,7 @@ mod tests {
             shapes: Vec::new(),
             at_points_per_s: Vec::new(),
             gravity: None,
+            torque_ripples: Vec::new(),
             command_lag_s: 0.0,
             tip_lags_s: Vec::new(),
         };

@@ -16,6 +16,8 @@ pub enum CommandQuantity {
     Current,
     /// Motor or drive voltage \[V\].
     Voltage,
+    /// Position goal minus angle of a servo \[rad or m\]; its torque constant is the position gain.
+    PositionError,
     /// A number of unknown unit (PWM counts, percent). Parameters are then per unit of command.
     Arbitrary,
 }
@@ -28,6 +30,17 @@ pub enum Hold {
     Sampled,
     /// A measurement at `t[k]`; the signal is smooth between samples.
     Measured,
+}
+
+impl Hold {
+    /// The angle that a servo compares with its goal in step `k`: the mean over the step where the goal is held, because the
+    /// servo continues to measure.
+    pub fn acting(self, angle: &[f64], k: usize) -> f64 {
+        match self {
+            Self::Sampled => f64::midpoint(angle[k], angle[(k + 1).min(angle.len() - 1)]),
+            Self::Measured => angle[k],
+        }
+    }
 }
 
 /// The command channel of the drive, and what is known of it.

@@ -7,14 +7,18 @@ mod error;
 pub(crate) mod extent;
 mod note;
 pub mod other_clock;
+mod rest_readings;
 mod run;
 pub(crate) mod spikes;
+mod undriven;
 
 pub use channel::{Axis, Channels, Command, CommandQuantity, Hold, Tip, TipQuantity};
 pub use error::RecordError;
 pub use note::Note;
+pub use rest_readings::{RestingReadings, rest_at_zero};
 pub use run::{Run, TimeBase};
 pub use spikes::{ReplacedReading, replace_spikes};
+pub use undriven::undriven;
 
 /// Several runs of one machine, all with the same channels.
 #[derive(Debug, Clone)]

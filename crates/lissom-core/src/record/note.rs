@@ -92,6 +92,22 @@ pub enum Note {
     },
     /// The log contains the motor's speed. It was integrated to an angle that starts at 0.
     SpeedIntegrated,
+    /// The motor was moved from outside while the command was exactly zero: this was left out, and the log was cut there.
+    Undriven {
+        /// Number of stretches.
+        count: usize,
+        /// Time of the first one, from the first sample \[s\].
+        at_s: f64,
+        /// Time that they last together \[s\].
+        length_s: f64,
+    },
+    /// The levels of a speed do not include zero: long stays on the lowest ones were taken as rest.
+    SpeedAtRest {
+        /// Distance of the levels \[rad/s or m/s\].
+        quantum: f64,
+        /// Number of readings.
+        count: usize,
+    },
     /// Jumps by one turn, as absolute encoders make them, were removed from the angles.
     TurnsRemoved {
         /// Number of jumps.

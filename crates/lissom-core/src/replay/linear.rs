@@ -182,6 +182,7 @@ mod tests {
             shapes: vec![vec![0.6, 0.4], vec![1.3, -0.3]],
             at_points_per_s: vec![0.7, 0.1],
             gravity: None,
+            torque_ripples: Vec::new(),
             command_lag_s: 0.0,
             tip_lags_s: Vec::new(),
         }

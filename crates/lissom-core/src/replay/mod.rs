@@ -30,7 +30,8 @@ mod transition;
 mod window;
 
 pub use crate::friction::{
-    DryTerms, FrictionNumber, NearRest, NearRestNumber, Ripple, RippleNumber,
+    DryTerms, FrictionNumber, NearRest, NearRestNumber, ROOT_SPEED_RAD_S, ROUNDED_LOAD_SHARE,
+    Ripple, RippleNumber, Root, WithLoad,
 };
 pub use arm_modes::ArmModes;
 pub(crate) use modal_arm::TURN_MOST;

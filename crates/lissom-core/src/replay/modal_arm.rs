@@ -5,7 +5,7 @@ use num_complex::Complex64;
 
 use crate::eigenvalues::eigenvalues;
 use crate::friction::DryTerms;
-use crate::load::GravityLoad;
+use crate::load::{GravityLoad, PositionTorque, TorqueRipple};
 
 /// Largest number of modes of a replayed arm.
 pub const MOST_MODES: usize = 4;
@@ -46,7 +46,7 @@ impl Oscillator {
 /// A model of an arm in modal coordinates: the motor with its friction, and the beam as oscillators on it.
 ///
 /// ```text
-/// J·θ̈ = τ − g_s·sin θ_log − g_c·cos θ_log − V_±·θ̇ − F_± − Σ k_j·(θ − ψ_j) + (k_j·d_j/ω_j²)·(θ̇ − ψ̇_j)
+/// J·θ̈ = τ − g_s·sin θ_log − g_c·cos θ_log − Σ_r B_r·cos k_rθ_log + C_r·sin k_rθ_log − V_±·θ̇ − F_± − Σ k_j·(θ − ψ_j) + (k_j·d_j/ω_j²)·(θ̇ − ψ̇_j)
 /// ψ̈_j = ω_j²·(θ − ψ_j) + d_j·(θ̇ − ψ̇_j) − a_j·ψ̇_j − Σ_l (r⁻¹·diag(c)·r)_jl·ψ̇_l
 /// θ_i = θ + Σ r_ij·(ψ_j − θ)
 /// ```
@@ -55,8 +55,8 @@ impl Oscillator {
 /// of the command \[N·m\]. F_± is dry friction, V_± viscous friction of the present direction. k_j, ω_j, d_j and
 /// a_j are the stiffness, frequency and damping of oscillator j ([`Oscillator`]); c_i is the damping of the point
 /// of tip i against the fixed frame, possible if there are as many tips as modes. θ_log is the logged angle of the
-/// motor, linear between samples, so that gravity is an input like the command and the equations stay linear. θ_i
-/// is read later by `tip_lags_s`.
+/// motor, so that gravity and torque ripples are inputs like the command, linear between samples, and the equations stay
+/// linear. θ_i is read later by `tip_lags_s`.
 ///
 /// Any beam with modes has this form, for any distribution of its mass: oscillator j is the clamped mode j, and `r_ij`
 /// its share at point i. Σ_j r_ij = 1 if all modes are included. On linear axes m, N and kg replace rad, N·m and kg·m².
@@ -83,6 +83,8 @@ pub struct ModalArm {
     pub at_points_per_s: Vec<f64>,
     /// Gravity on the motor. It acts in replays only; linear responses do not contain it.
     pub gravity: Option<GravityLoad>,
+    /// Torque ripples (cogging) of the motor. They act in replays only, like gravity.
+    pub torque_ripples: Vec<TorqueRipple>,
     /// Lag of the command \[s\]: the torque acts this much later than it is logged.
     pub command_lag_s: f64,
     /// Lag of each tip \[s\]: a reading shows the angle of its point this much earlier; empty if there are no lags.
@@ -90,6 +92,11 @@ pub struct ModalArm {
 }
 
 impl ModalArm {
+    /// Gravity and torque ripples together.
+    pub fn position_torque(&self) -> PositionTorque {
+        PositionTorque::new(self.gravity, &self.torque_ripples)
+    }
+
     /// Natural frequency |s| \[rad/s\] and damping ratio −Re s/|s| of each mode with the motor clamped, ascending. If
     /// there are dampers at points, they couple the oscillators, and |s| differs from ω.
     pub fn clamped_modes(&self) -> Vec<(f64, f64)> {

@@ -39,7 +39,7 @@ pub(super) struct Replayer<'a, const D: usize> {
 pub(super) struct Seen<'m, const D: usize> {
     pub(super) sample: usize,
     pub(super) motion: &'m ReplayedMotion<D>,
-    /// Torque that acts just before the sample, gravity's taken off \[N·m\].
+    /// Torque that acts just before the sample, that of position taken off \[N·m\].
     pub(super) torque: f64,
     /// Sine and cosine of the logged angle, where gravity acts.
     pub(super) waves: Option<[f64; 2]>,
@@ -119,7 +119,7 @@ impl<'a, const D: usize> Replayer<'a, D> {
         let (first, last) = (*range.start(), *range.end());
         for sample in first..=last {
             let waves = self.waves(run, sample);
-            let torque = self.before(run, sample) - self.load(waves);
+            let torque = self.before(run, sample) - self.load(run, sample, waves);
             see(&Seen { sample, motion: &motion, torque, waves });
             if sample < last {
                 self.sample(run, sample, &mut motion);
@@ -133,24 +133,23 @@ impl<'a, const D: usize> Replayer<'a, D> {
         self.arm.gravity.map(|_| run.motor()[k].sin_cos().into())
     }
 
-    /// Gravity's torque.
-    fn load(&self, waves: Option<[f64; 2]>) -> f64 {
+    /// Torque of gravity and torque ripples at sample `k`, where `waves` are [`Self::waves`].
+    fn load(&self, run: &Run, k: usize, waves: Option<[f64; 2]>) -> f64 {
         let torque = |(g, [sin, cos]): (GravityLoad, [f64; 2])| g.sine_nm * sin + g.cosine_nm * cos;
-        self.arm.gravity.zip(waves).map_or(0.0, torque)
+        let ripples = self.arm.torque_ripples.iter().map(|r| r.torque_nm(run.motor()[k]));
+        self.arm.gravity.zip(waves).map_or(0.0, torque) + ripples.sum::<f64>()
     }
 
-    /// A torque over sample `k`, gravity's taken off.
+    /// A torque over sample `k`, that of gravity and torque ripples taken off.
     fn less_load(&self, run: &Run, k: usize, torque: Torque) -> Torque {
-        let (Some([sin, cos]), Some([next_sin, next_cos])) =
-            (self.waves(run, k), self.waves(run, k + 1))
-        else {
-            return torque;
-        };
+        let [now, next] = [k, k + 1].map(|k| self.waves(run, k));
         let mut less = torque;
-        less.from -= self.load(Some([sin, cos]));
-        less.to -= self.load(Some([next_sin, next_cos]));
-        less.by[BY_SINE] = [-sin, -next_sin];
-        less.by[BY_COSINE] = [-cos, -next_cos];
+        less.from -= self.load(run, k, now);
+        less.to -= self.load(run, k + 1, next);
+        if let (Some([sin, cos]), Some([next_sin, next_cos])) = (now, next) {
+            less.by[BY_SINE] = [-sin, -next_sin];
+            less.by[BY_COSINE] = [-cos, -next_cos];
+        }
         less
     }
 

@@ -6,7 +6,7 @@ use super::{
     ControlLaw, Delay, Instruments, JointFriction, Noise, Quantiser, Rig, RigError, Scene, Sensor,
 };
 use crate::arm::Arm;
-use crate::load::GravityLoad;
+use crate::load::{GravityLoad, TorqueRipple};
 
 /// Builder of a [`Rig`]: see [`Rig::builder`]. The numbers are checked by [`build`](Self::build),
 /// which returns the first error.
@@ -142,7 +142,14 @@ impl RigBuilder {
         self
     }
 
-    /// Sets all of it at once: friction law, gravity, what acts on the tip, and later payloads.
+    /// Sets torque ripples (cogging) of the motor.
+    #[must_use]
+    pub fn torque_ripples(mut self, ripples: impl IntoIterator<Item = TorqueRipple>) -> Self {
+        self.scene.torque_ripples = ripples.into_iter().collect();
+        self
+    }
+
+    /// Sets all of it at once: friction law, gravity, torque ripples, what acts on the tip, and later payloads.
     #[must_use]
     pub fn scene(mut self, scene: Scene) -> Self {
         self.scene = scene;

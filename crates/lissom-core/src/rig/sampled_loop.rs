@@ -158,8 +158,11 @@ impl<'r, C: Controller + ?Sized> Bench<'r, C> {
         let bound_rad = match experiment.drive {
             Drive::Angle(_) => {
                 let asked = reference.amplitude(experiment.record_s).max(LEAST_RAD);
-                // A load that the loop does not hold hangs half a turn away at most.
-                let hangs = rig.scene.gravity.map_or(0.0, |_| std::f64::consts::PI);
+                // A load that the loop does not hold hangs half a turn away at most; cogging, half a wave.
+                let torque = rig.scene.position_torque();
+                let half_waves =
+                    torque.waves().iter().map(|w| std::f64::consts::PI / w.per_rad.abs());
+                let hangs = half_waves.filter(|angle| angle.is_finite()).fold(0.0, f64::max);
                 let asked = asked.max(STEPS * instruments.motor.resolution()).max(deflection);
                 RUN_AWAY * asked + hangs
             }

@@ -1,10 +1,10 @@
-//! The surroundings of an arm: friction and gravity at the joint, forces at the tip, later payloads.
+//! The surroundings of an arm: friction, gravity and torque ripple at the joint, forces at the tip, later payloads.
 
 use super::error::finite;
 use super::{FrictionWander, HeldArm, HeldMotion, Hybrid, LuGreMotion, Motion, RigError, TipWorld};
 use crate::arm::Arm;
 use crate::drive::{DryFriction, LuGre};
-use crate::load::GravityLoad;
+use crate::load::{GravityLoad, PositionTorque, TorqueRipple};
 
 /// Friction law of the joint.
 #[derive(Debug, Clone, PartialEq, Default)]
@@ -53,6 +53,8 @@ pub struct Scene {
     pub load_nm: f64,
     /// Gravity of an unbalanced load on the motor, a function of the motor's true angle; `None`: no load.
     pub gravity: Option<GravityLoad>,
+    /// Torque ripples (cogging) of the motor, functions of the motor's true angle.
+    pub torque_ripples: Vec<TorqueRipple>,
     /// What acts on the tip.
     pub tip: TipWorld,
     /// Arms that replace the first one at given times \[s\] since the start, for example with another payload.
@@ -63,11 +65,16 @@ impl Scene {
     /// Checks the numbers.
     ///
     /// # Errors
-    /// [`RigError`] of [`TipWorld::check`]; [`RigError::NotFinite`] if gravity or the constant load is not finite;
+    /// [`RigError`] of [`TipWorld::check`]; [`RigError::NotFinite`] if gravity, a torque ripple or the constant load is not
+    /// finite;
     /// [`RigError::Unsupported`] for bristles whose friction wanders.
     pub fn check(&self) -> Result<(), RigError> {
         if let Some(load) = self.gravity {
             finite("gravity of the load in N*m", load.amplitude_nm())?;
+        }
+        for ripple in &self.torque_ripples {
+            finite("waves per rad of a torque ripple", ripple.per_rad)?;
+            finite("torque ripple in N*m", ripple.amplitude_nm())?;
         }
         finite("constant load in N*m", self.load_nm)?;
         if self.wander.is_some() && matches!(self.friction, JointFriction::Bristles { .. }) {
@@ -81,7 +88,7 @@ impl Scene {
         match &self.friction {
             JointFriction::Dry(law) if !law.is_constant() => Some(Hybrid::BENT),
             JointFriction::Bristles { tolerance, .. } => Some(*tolerance),
-            _ if self.gravity.is_some() => Some(Hybrid::BENT),
+            _ if !self.position_torque().is_empty() => Some(Hybrid::BENT),
             _ => None,
         }
     }
@@ -93,6 +100,11 @@ impl Scene {
             JointFriction::Dry(law) => Some(law.clone()),
             JointFriction::Bristles { .. } => None,
         }
+    }
+
+    /// Gravity and torque ripples together.
+    pub fn position_torque(&self) -> PositionTorque {
+        PositionTorque::new(self.gravity, &self.torque_ripples)
     }
 
     /// What friction holds at rest, the lesser of both directions \[N·m\].
@@ -107,7 +119,7 @@ impl Scene {
 
     /// Whether `arm` stays at rest at angle zero without a torque of the motor.
     pub(super) fn rests_at_zero(&self, arm: &Arm) -> bool {
-        let load = self.load_nm + self.gravity.map_or(0.0, |load| load.torque_nm(0.0));
+        let load = self.load_nm + self.position_torque().torque_nm(0.0);
         // Bristles give way by some of their travel.
         let gives_way = matches!(self.friction, JointFriction::Bristles { .. });
         load == 0.0 || !gives_way && load.abs() < self.holds_nm(arm)
@@ -125,7 +137,7 @@ impl Scene {
         durations_s: &[f64],
     ) -> Result<Option<HeldArm<'a>>, RigError> {
         let fixed = self.friction == JointFriction::Arm && self.wander.is_none();
-        if !fixed || self.gravity.is_some() || !self.is_alone() {
+        if !fixed || !self.position_torque().is_empty() || !self.is_alone() {
             return Ok(None);
         }
         let durations_s: Vec<f64> = durations_s.iter().copied().filter(|d| *d > 0.0).collect();
@@ -152,14 +164,12 @@ impl Scene {
             }
             JointFriction::Bristles { law, tolerance } => {
                 let motion = LuGreMotion::with_state(arm, *law, *tolerance, &state, 0.0)?;
-                return Ok(Box::new(match self.gravity {
-                    Some(load) => motion.with_gravity(load),
-                    None => motion,
-                }));
+                return Ok(Box::new(motion.with_position_torque(self.position_torque())));
             }
         };
         let later: Vec<(f64, &Arm)> = self.later.iter().map(|(t, arm)| (*t, arm)).collect();
         let hybrid = Hybrid::with_state(arm, state).with_friction(dry);
+        let hybrid = hybrid.with_torque_ripples(&self.torque_ripples);
         let hybrid = match self.gravity {
             Some(load) => hybrid.with_gravity(load),
             None => hybrid,

@@ -78,7 +78,9 @@ impl ArmFile {
             return Err(ArmError::LoadOnBeam { file: path.to_owned() });
         }
         let gravity = self.load.map(|load| load.gravity());
-        let joint = Scene { friction, gravity, ..Scene::default() };
+        let torque_ripples =
+            self.drive.as_ref().map_or_else(Vec::new, |d| d.torque_ripples.clone());
+        let joint = Scene { friction, gravity, torque_ripples, ..Scene::default() };
         let Some(tip) = &self.tip else { return Ok(joint) };
         if arm.beam().lumped().is_none() {
             return Err(beam_failed(BeamError::NoTip));

@@ -1,8 +1,11 @@
 //! Friction in the table `[drive]` that is not constant.
 
 use lissom_core::drive::{Coulomb, DriveError, DryFriction, Falloff, LuGre};
+use lissom_core::load::GravityLoad;
+use lissom_core::replay::WithLoad;
 use lissom_core::rig::JointFriction;
 
+use super::load_spec;
 use crate::config::{ConfigError, Rule, Table, Value};
 use crate::units::Dimension;
 
@@ -15,6 +18,10 @@ pub struct FrictionSpec {
     pub rest: Option<RestSpec>,
     /// Friction that changes over the turn.
     pub ripple: Option<RippleSpec>,
+    /// A \[N·m/√(rad/s)\]: friction that grows with the square root of speed.
+    pub root_nm_per_root_rad_s: Option<f64>,
+    /// Friction that grows with the torque of gravity.
+    pub with_load: Option<WithLoad>,
     /// Bristles (LuGre).
     pub bristles: Option<BristlesSpec>,
 }
@@ -59,19 +66,26 @@ pub struct RippleSpec {
 
 impl FrictionSpec {
     /// The keys of this friction in `[drive]`.
-    pub(super) const KEYS: [&'static str; 3] = ["rest", "ripple", "bristles"];
+    pub(super) const KEYS: [&'static str; 5] = ["rest", "ripple", "root", "with_load", "bristles"];
 
+    /// Reads the keys; `load` is the one of the table `[load]`.
     pub(super) fn read(
         drive: &Table<'_>,
+        load: Option<GravityLoad>,
         viscous_apart_nm_s_per_rad: f64,
         torque: impl Fn(&Value<'_>) -> Result<f64, ConfigError>,
     ) -> Result<Self, ConfigError> {
-        let both = drive.one_of(&["ripple", "bristles"])?;
-        if let Some((_, bristles)) = both.filter(|(i, _)| *i == 1) {
+        for term in ["ripple", "root", "with_load"] {
+            drive.one_of(&[term, "bristles"])?;
+        }
+        if let Some(bristles) = drive.get("bristles") {
             bristles_fit(drive, &bristles)?;
         }
+        let root = drive.get("root").map(|v| root(&v.table()?, &torque)).transpose()?;
         Ok(Self {
             viscous_apart_nm_s_per_rad,
+            root_nm_per_root_rad_s: root,
+            with_load: drive.get("with_load").map(|v| with_load(&v, load)).transpose()?,
             rest: drive.get("rest").map(|v| rest(&v.table()?, torque)).transpose()?,
             ripple: drive.get("ripple").map(|v| ripple(&v.table()?)).transpose()?,
             bristles: drive.get("bristles").map(|v| bristles(&v.table()?)).transpose()?,
@@ -99,6 +113,12 @@ impl FrictionSpec {
         }
         if let Some(ripple) = &self.ripple {
             law = law.with_ripple(ripple.share, ripple.per_turn, ripple.phase_rad)?;
+        }
+        if let Some(root) = self.root_nm_per_root_rad_s {
+            law = law.with_root(root)?;
+        }
+        if let Some(term) = self.with_load {
+            law = law.with_load(term.coefficient, term.load)?;
         }
         law = law.with_viscous_apart(self.viscous_apart_nm_s_per_rad)?;
         Ok(if law.is_constant() { JointFriction::Arm } else { JointFriction::Dry(law) })
@@ -149,6 +169,28 @@ fn ripple(table: &Table<'_>) -> Result<RippleSpec, ConfigError> {
         per_turn: table.need("per_turn")?.positive(Dimension::NUMBER)?,
         phase_rad: phase.transpose()?.unwrap_or(0.0),
     })
+}
+
+/// A of friction that is `friction` at the speed `velocity`.
+fn root(
+    table: &Table<'_>,
+    torque: impl Fn(&Value<'_>) -> Result<f64, ConfigError>,
+) -> Result<f64, ConfigError> {
+    table.only(&["friction", "velocity"])?;
+    let velocity = table.need("velocity")?.positive(Dimension::RATE)?;
+    Ok(torque(&table.need("friction")?)? / velocity.sqrt())
+}
+
+/// A coefficient, with the load of the table `[load]` or its own.
+fn with_load(value: &Value<'_>, load: Option<GravityLoad>) -> Result<WithLoad, ConfigError> {
+    let needs = || ConfigError::Needs { place: value.place(), key: "load" };
+    let Some(table) = value.as_table() else {
+        let coefficient = value.not_negative(Dimension::NUMBER)?;
+        return Ok(WithLoad { coefficient, load: load.ok_or_else(needs)? });
+    };
+    table.only(&["coefficient", "gravity_torque", "phase"])?;
+    let coefficient = table.need("coefficient")?.not_negative(Dimension::NUMBER)?;
+    Ok(WithLoad { coefficient, load: load_spec::keys(&table)?.gravity() })
 }
 
 fn bristles(table: &Table<'_>) -> Result<BristlesSpec, ConfigError> {

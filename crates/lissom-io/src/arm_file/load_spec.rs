@@ -23,6 +23,11 @@ impl LoadSpec {
 
 pub(super) fn load(table: &Table<'_>) -> Result<LoadSpec, ConfigError> {
     table.only(&["gravity_torque", "phase"])?;
+    keys(table)
+}
+
+/// The keys of a load.
+pub(super) fn keys(table: &Table<'_>) -> Result<LoadSpec, ConfigError> {
     let phase = table.get("phase").map(|v| v.quantity(Dimension::NUMBER)).transpose()?;
     Ok(LoadSpec {
         gravity_torque_nm: table.need("gravity_torque")?.positive(Dimension::TORQUE)?,

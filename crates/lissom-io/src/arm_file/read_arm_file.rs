@@ -42,12 +42,15 @@ impl ArmFile {
             Some(table) if table.get("modes").is_some() => (Some(table), None),
             other => (None, other),
         };
+        let load = root.get("load").map(|v| load_spec::load(&v.table()?)).transpose()?;
+        let gravity = load.map(|load| load.gravity());
+        let drive = root.get("drive").map(|v| drive_spec::drive(&v.table()?, gravity));
         Ok(Self {
             beam: by_spans.map(|t| beam_spec::beam(&t)).transpose()?,
             modes: by_modes.map(|t| mode_specs::modes(&t)).transpose()?,
             rigid,
-            drive: root.get("drive").map(|v| drive_spec::drive(&v.table()?)).transpose()?,
-            load: root.get("load").map(|v| load_spec::load(&v.table()?)).transpose()?,
+            drive: drive.transpose()?,
+            load,
             tip: root.get("tip").map(|v| tip_spec::tip(&v.table()?)).transpose()?,
             rig: root.get("rig").map(|v| rig_spec::rig(&v.table()?)).transpose()?,
         })

@@ -67,7 +67,8 @@ fn a_goal_less_the_angle_is_the_command() {
     let goal = "unit = \"deg\", quantity = \"goal\"";
     let file = read(&commanded(goal, "")).unwrap();
     let command = &file.campaign.channels.command;
-    assert_eq!((command.quantity, command.torque_per_command), (CommandQuantity::Arbitrary, None));
+    let found = (command.quantity, command.torque_per_command);
+    assert_eq!(found, (CommandQuantity::PositionError, None));
     let expected = 3.0 * PI / 180.0 - f64::midpoint(signal(7), signal(8));
     assert!((file.campaign.runs[0].command()[7] - expected).abs() < 1e-15);
     let measured =

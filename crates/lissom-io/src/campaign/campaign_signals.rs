@@ -31,6 +31,8 @@ pub(super) struct Signals {
     pub(super) motor_log: Option<OwnLog>,
     /// The log of each tip, if it is not that of the run.
     pub(super) tip_logs: Vec<Option<OwnLog>>,
+    /// Whether gravity of a load moves the motor.
+    pub(super) gravity: bool,
 }
 
 impl Signals {
@@ -97,7 +99,8 @@ impl CommandKind {
         match self {
             Self::Current => CommandQuantity::Current,
             Self::Voltage => CommandQuantity::Voltage,
-            Self::Effort | Self::Goal | Self::Unknown => CommandQuantity::Arbitrary,
+            Self::Goal => CommandQuantity::PositionError,
+            Self::Effort | Self::Unknown => CommandQuantity::Arbitrary,
         }
     }
 
@@ -201,6 +204,7 @@ pub(super) fn signals(table: &Table<'_>) -> Result<Signals, Error> {
         tips,
         motor_log,
         tip_logs,
+        gravity: false,
     })
 }
 

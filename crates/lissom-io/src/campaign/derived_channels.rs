@@ -18,12 +18,7 @@ pub(super) fn integrated(speed: &[f64], sample_time_s: f64) -> Vec<f64> {
 ///
 /// A held goal is compared with the mean angle of the step, because the servo continues to measure.
 pub(super) fn goal_difference(goal: &[f64], angle: &[f64], hold: Hold) -> Vec<f64> {
-    let last = angle.len().saturating_sub(1);
-    let acting = |k: usize| match hold {
-        Hold::Sampled => f64::midpoint(angle[k], angle[(k + 1).min(last)]),
-        Hold::Measured => angle[k],
-    };
-    goal.iter().enumerate().map(|(k, goal)| goal - acting(k)).collect()
+    goal.iter().enumerate().map(|(k, goal)| goal - hold.acting(angle, k)).collect()
 }
 
 #[cfg(test)]

@@ -2,9 +2,10 @@
 
 use std::collections::HashMap;
 
-use lissom_core::record::clock::{self, ClockError, EvenLog, LogRows};
+use lissom_core::record::clock::{self, ClockError, EvenLog, EvenPart, LogRows};
 use lissom_core::record::{
-    Axis, Campaign, Channels, Command, Hold, Note, RecordError, Run, Tip, TipQuantity,
+    Axis, Campaign, Channels, Command, Hold, Note, RecordError, RestingReadings, Run, Tip,
+    TipQuantity, rest_at_zero, undriven,
 };
 use rayon::prelude::*;
 
@@ -78,18 +79,20 @@ fn load_run(
     };
     let (factor, repeated) = (log.factor, log.repeated);
     let (even, turns, own) = even_parts(log, signals, (places, spec), options, &file)?;
-    let count = even.parts.len();
+    let (parts, undriven) = without_undriven(even.parts, signals, options.least_piece);
+    let count = parts.len();
     let mut runs = Vec::with_capacity(count);
-    for (index, part) in even.parts.into_iter().enumerate() {
+    for (index, part) in parts.into_iter().enumerate() {
         let piece = match count {
             1 => name.to_owned(),
             _ => format!("{name} [{}/{count}]", index + 1),
         };
-        let motor = if signals.motor_speed {
-            integrated(&part.motor, part.time.sample_time_s)
-        } else {
-            part.motor
-        };
+        let mut motor = part.motor;
+        let mut at_rest = None;
+        if signals.motor_speed {
+            at_rest = rest_at_zero(&mut motor);
+            motor = integrated(&motor, part.time.sample_time_s);
+        }
         let command = match signals.command.kind {
             CommandKind::Goal => goal_difference(&part.command, &motor, signals.command.hold),
             _ => part.command,
@@ -105,7 +108,11 @@ fn load_run(
                 other => of_log(other, &file),
             })?;
         }
+        if let Some(RestingReadings { quantum, count }) = at_rest {
+            run = run.with_note(Note::SpeedAtRest { quantum, count });
+        }
         if index == 0 {
+            run = undriven.iter().cloned().fold(run, Run::with_note);
             run = own.iter().cloned().fold(run, Run::with_note);
             if factor > 1 {
                 run = run.with_note(Note::Thinned { factor });
@@ -135,6 +142,40 @@ fn load_run(
         runs.push(part.notes.into_iter().fold(run, Run::with_note));
     }
     Ok(runs)
+}
+
+/// The parts without stretches in which the motor is moved from outside while the command is zero, and a note on these. Gravity,
+/// and a beam, move a motor without a command; there nothing is left out.
+fn without_undriven(
+    parts: Vec<EvenPart>,
+    signals: &Signals,
+    least: usize,
+) -> (Vec<EvenPart>, Option<Note>) {
+    if signals.gravity || signals.command.kind == CommandKind::Goal || !signals.tips.is_empty() {
+        return (parts, None);
+    }
+    let (mut kept, mut note) = (Vec::new(), None);
+    for part in parts {
+        let found = undriven(&part.command, &part.motor, signals.motor_speed);
+        if found.is_empty() {
+            kept.push(part);
+            continue;
+        }
+        let sample_s = part.time.sample_time_s;
+        for range in &found {
+            let (start_s, long_s) = (range.start as f64 * sample_s, range.len() as f64 * sample_s);
+            let (count, at_s, length_s) = match note {
+                Some(Note::Undriven { count, at_s, length_s }) => (count, at_s, length_s),
+                _ => (0, start_s, 0.0),
+            };
+            note = Some(Note::Undriven { count: count + 1, at_s, length_s: length_s + long_s });
+        }
+        let ends = found.iter().map(|r| r.start).chain([part.motor.len()]);
+        let starts = std::iter::once(0).chain(found.iter().map(|r| r.end));
+        let pieces: Vec<_> = starts.zip(ends).filter(|(from, to)| from + least <= *to).collect();
+        kept.extend(pieces.into_iter().map(|(from, to)| part.piece(from..to)));
+    }
+    (kept, note)
 }
 
 /// Refuses samples that are too large.

@@ -190,6 +190,7 @@ fn described(source: &Source, only: &[PathBuf]) -> Result<Described, Error> {
     let load_table = root.get("load").map(|v| v.table()).transpose()?;
     let on_motor = load_table.map(|table| campaign_load::load(&table, &signals));
     let on_motor = on_motor.transpose()?.unwrap_or_default();
+    signals.gravity = on_motor.gravity;
     let (analysis, skip_s) = match root.get("analysis") {
         Some(value) => analysis(&value.table()?)?,
         None => (AnalysisOptions::default(), None),

@@ -63,13 +63,14 @@ fn with_joint(path: &Path, file: &ArmFile, arm: &Arm) -> Result<ExportModel, Err
     Ok(model)
 }
 
-/// Friction of the joint that is not constant.
+/// Friction of the joint that is not constant, and torque ripples.
 fn add_friction(
     model: &mut ExportModel,
     path: &Path,
     drive: &DriveSpec,
     arm: &Arm,
 ) -> Result<(), ArmError> {
+    model.arm.torque_ripples.clone_from(&drive.torque_ripples);
     let apart = drive.friction.viscous_apart_nm_s_per_rad;
     let mean = drive.viscous_nm_s_per_rad;
     model.arm.viscous_nm_s_per_rad = [mean + apart, mean - apart];

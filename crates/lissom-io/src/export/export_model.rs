@@ -3,15 +3,16 @@
 use std::path::Path;
 
 use lissom_core::arm::Arm;
+use lissom_core::load::TorqueRipple;
 use lissom_core::lti::{StateSpace, TransferFunction};
 use lissom_core::record::{Axis, CommandQuantity};
-use lissom_core::replay::{ModalArm, Oscillator};
+use lissom_core::replay::{ModalArm, Oscillator, Ripple};
 
 use super::export_error::ExportError;
 use super::friction_pair::FrictionPair;
 use crate::io_error::Error;
 use crate::result::{
-    FrequencyResponseEntry, ListedParameter, ParameterList, ResultFile, UnitNames,
+    FrequencyResponseEntry, FrictionEntry, ListedParameter, ParameterList, ResultFile, UnitNames,
 };
 
 /// An arm for another program.
@@ -31,6 +32,9 @@ pub struct ExportModel {
     pub parameters: Vec<ListedParameter>,
     /// The measured responses; `None` for a description.
     pub responses: Option<FrequencyResponseEntry>,
+    /// Coulomb friction \[N·m\] and viscous friction \[N·m·s/rad\] of the line that stands for a law of friction, with the damping by
+    /// back-EMF; `None` without a law or if one of both is not given.
+    pub friction_line: Option<[f64; 2]>,
     /// Largest speed at which friction was identified \[rad/s\]; `None` if it is unknown.
     pub speed_most_rad_s: Option<f64>,
     /// Whether the joint has bristles (LuGre), which the arm does not contain.
@@ -63,6 +67,7 @@ pub fn export_model_of_text(file: String, text: &str) -> Result<ExportModel, Err
     })?;
     let speeds = result.friction.curve.iter().filter_map(|p| p.speed.get(listed.names).copied());
     Ok(ExportModel {
+        friction_line: friction_line(&result.friction, listed.names, &found.arm),
         file,
         names: listed.names,
         speed_most_rad_s: speeds.fold(None, |most, s| Some(most.map_or(s, |m: f64| m.max(s)))),
@@ -73,6 +78,15 @@ pub fn export_model_of_text(file: String, text: &str) -> Result<ExportModel, Err
         bristles: false,
         responses: Some(result.frequency_response),
     })
+}
+
+/// The line of a result's friction beside its law. The arm's viscous friction is that of the law and the damping by back-EMF.
+fn friction_line(friction: &FrictionEntry, names: UnitNames, arm: &ModalArm) -> Option<[f64; 2]> {
+    let law = friction.law.as_ref()?.viscous.get(names)?.as_ref()?.value;
+    let coulomb = friction.coulomb.coulomb.get(names)?.as_ref()?.value;
+    let viscous = friction.viscous.get(names)?.as_ref()?.value;
+    let [forward, backward] = arm.viscous_nm_s_per_rad;
+    Some([coulomb, viscous + 0.5 * (forward + backward) - law])
 }
 
 /// The model of an arm that an `arm.toml` describes.
@@ -96,6 +110,7 @@ pub fn export_model_of_arm(file: &Path, arm: &Arm) -> Result<ExportModel, Export
         arm: modal,
         parameters: Vec::new(),
         responses: None,
+        friction_line: None,
         speed_most_rad_s: None,
         bristles: false,
     })
@@ -139,7 +154,7 @@ impl ExportModel {
 
     /// Coulomb and viscous friction for a target without other friction.
     pub(super) fn pair(&self) -> FrictionPair {
-        FrictionPair::of(&self.arm, self.speed_most_rad_s)
+        FrictionPair::of(&self.arm, self.friction_line, self.speed_most_rad_s)
     }
 
     /// What a target with only Coulomb and viscous friction cannot carry, and what its two numbers are.
@@ -147,11 +162,11 @@ impl ExportModel {
         let mut lost = self.lost_at_any_speed();
         if let Some(fit) = self.pair().fit {
             let (torque, speed) = (self.torque_unit(), self.names.angle());
-            lost.extend(self.lost_near_rest().map(|near| {
+            lost.extend(self.lost_with_speed().map(|terms| {
                 format!(
-                    "{near}. Damping and friction are the least-squares line of the whole law from 0 to {:.4e} {speed}/s, \
-                     which differs from it by at most {:.2e} {torque} (at {:.2e} {speed}/s); the law itself has {:.4e} \
-                     {torque} and {:.4e} {torque} per {speed}/s at high speed",
+                    "{terms}. Damping and friction are the line of least squares through the whole law, which from 0 to {:.4e} \
+                     {speed}/s differs from it by at most {:.2e} {torque} (at {:.2e} {speed}/s); the law itself has {:.4e} \
+                     {torque} and {:.4e} {torque} per {speed}/s beside these terms",
                     fit.speed_most_rad_s,
                     fit.error_nm,
                     fit.error_at_rad_s,
@@ -166,20 +181,34 @@ impl ExportModel {
     /// What a model without friction other than Coulomb and viscous friction does not contain.
     pub(super) fn lost_friction(&self) -> Vec<String> {
         let mut lost = self.lost_at_any_speed();
-        lost.extend(self.lost_near_rest());
+        lost.extend(self.lost_with_speed());
         lost
     }
 
-    /// The change of friction near rest, if there is one.
-    fn lost_near_rest(&self) -> Option<String> {
-        let near = self.arm.dry_terms.near_rest?;
-        Some(format!(
-            "change of friction near standstill: {:.4e} {} below about {:.4e} {}/s",
-            near.torque_nm,
-            self.torque_unit(),
-            near.speed_rad_s,
-            self.names.angle()
-        ))
+    /// Lines about the gains of WPILib: what they leave out.
+    pub(super) fn lost_by_wpilib(&self) -> Vec<String> {
+        let line =
+            |lost: &String| format!("Not in these gains: {}.", super::number_text::plain(lost));
+        self.lost_by_pair().iter().map(line).collect()
+    }
+
+    /// Friction that changes with speed in another way than viscous friction, if there is any.
+    fn lost_with_speed(&self) -> Option<String> {
+        let (torque, angle) = (self.torque_unit(), self.names.angle());
+        let near = self.arm.dry_terms.near_rest.map(|near| {
+            format!(
+                "change of friction near standstill: {:.4e} {torque} below about {:.4e} {angle}/s",
+                near.torque_nm, near.speed_rad_s,
+            )
+        });
+        let root = self.arm.dry_terms.root.map(|root| {
+            format!(
+                "friction that grows with the square root of speed: {:.4e} {torque} at 1 {angle}/s",
+                root.torque_nm_per_root_rad_s,
+            )
+        });
+        let all: Vec<String> = near.into_iter().chain(root).collect();
+        (!all.is_empty()).then(|| all.join("; "))
     }
 
     fn lost_at_any_speed(&self) -> Vec<String> {
@@ -196,10 +225,27 @@ impl ExportModel {
         if (forward - backward).abs() > 0.0 {
             lost.push(format!("viscous friction by direction: {forward:.4e} and {backward:.4e}"));
         }
-        if !arm.dry_terms.ripples.is_empty() {
+        let unit = self.torque_unit();
+        let (friction, torque) = (&arm.dry_terms.ripples, &arm.torque_ripples);
+        if !friction.is_empty() {
+            let most: f64 = friction.iter().map(Ripple::amplitude_nm).sum();
             lost.push(format!(
-                "{} ripple(s) of friction over the travel",
-                arm.dry_terms.ripples.len()
+                "{} ripple(s) of friction over the travel, up to {most:.4e} {unit}",
+                friction.len()
+            ));
+        }
+        if let Some(term) = arm.dry_terms.with_load {
+            lost.push(format!(
+                "friction that grows with the torque of gravity: {:.4e} times it, up to {:.4e} {unit}",
+                term.coefficient,
+                term.coefficient * term.load.amplitude_nm()
+            ));
+        }
+        if !torque.is_empty() {
+            let most: f64 = torque.iter().map(TorqueRipple::amplitude_nm).sum();
+            lost.push(format!(
+                "{} torque ripple(s) (cogging), up to {most:.4e} {unit}",
+                torque.len()
             ));
         }
         if self.bristles {

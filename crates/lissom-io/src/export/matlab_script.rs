@@ -3,6 +3,7 @@
 use std::fmt::Write as _;
 
 use lissom_core::drive::Falloff;
+use lissom_core::replay::{ROOT_SPEED_RAD_S, ROUNDED_LOAD_SHARE};
 
 use super::export_model::ExportModel;
 use super::number_text::{number, numbers};
@@ -50,6 +51,9 @@ pub fn matlab_script(model: &ExportModel) -> String {
             number(ka),
             number(kg)
         );
+        for lost in model.lost_by_wpilib() {
+            let _ = writeln!(text, "% {lost}");
+        }
     }
     text
 }
@@ -80,8 +84,35 @@ fn friction(model: &ExportModel) -> String {
             k = number(ripple.per_rad)
         );
     }
-    let gravity = arm.gravity.map_or(String::new(), |g| {
+    if let Some(root) = &arm.dry_terms.root {
+        let e = number(ROOT_SPEED_RAD_S);
+        let _ = write!(
+            dry,
+            " + ({})*(sqrt(abs(v) + {e}) - sqrt({e}))",
+            number(root.torque_nm_per_root_rad_s)
+        );
+    }
+    if let Some(term) = &arm.dry_terms.with_load {
+        let _ = write!(
+            dry,
+            " + ({})*hypot(({})*sin(q) + ({})*cos(q), {})",
+            number(term.coefficient),
+            number(term.load.sine_nm),
+            number(term.load.cosine_nm),
+            number(ROUNDED_LOAD_SHARE * term.load.amplitude_nm())
+        );
+    }
+    let mut gravity = arm.gravity.map_or(String::new(), |g| {
         format!(" + ({})*sin(q) + ({})*cos(q)", number(g.sine_nm), number(g.cosine_nm))
     });
+    for ripple in &arm.torque_ripples {
+        let _ = write!(
+            gravity,
+            " + ({})*cos({k}*q) + ({})*sin({k}*q)",
+            number(ripple.cosine_nm),
+            number(ripple.sine_nm),
+            k = number(ripple.per_rad)
+        );
+    }
     format!("friction = @(v, q) sign(v).*({dry}) + ({}){gravity};\n", number(arm.offset_nm))
 }

@@ -3,6 +3,7 @@
 use std::fmt::Write as _;
 
 use lissom_core::drive::Falloff;
+use lissom_core::replay::{ROOT_SPEED_RAD_S, ROUNDED_LOAD_SHARE};
 
 use super::export_model::ExportModel;
 use super::number_text::{number, numbers, plain};
@@ -64,6 +65,9 @@ pub fn python_script(model: &ExportModel) -> String {
             number(ka),
             number(kg)
         );
+        for lost in model.lost_by_wpilib() {
+            let _ = writeln!(text, "# {lost}");
+        }
     }
     text
 }
@@ -81,7 +85,7 @@ fn not_linear(model: &ExportModel) -> Vec<String> {
 fn friction(model: &ExportModel) -> String {
     let arm = &model.arm;
     let mut text = String::from(
-        "def friction(velocity, angle=0.0):\n    \"\"\"Dry friction, offset and gravity; viscous friction is in the linear model.\"\"\"\n    \
+        "def friction(velocity, angle=0.0):\n    \"\"\"Dry friction, offset, gravity and torque ripple; viscous friction is in the linear model.\"\"\"\n    \
          sign = math.copysign(1.0, velocity) if velocity != 0.0 else 0.0\n",
     );
     let _ = writeln!(text, "    dry = {}", number(arm.coulomb_nm));
@@ -107,13 +111,40 @@ fn friction(model: &ExportModel) -> String {
             k = number(ripple.per_rad)
         );
     }
-    let gravity = arm.gravity.map_or(String::new(), |g| {
+    if let Some(root) = &arm.dry_terms.root {
+        let e = number(ROOT_SPEED_RAD_S);
+        let _ = writeln!(
+            text,
+            "    dry += {} * (math.sqrt(abs(velocity) + {e}) - math.sqrt({e}))",
+            number(root.torque_nm_per_root_rad_s)
+        );
+    }
+    if let Some(term) = &arm.dry_terms.with_load {
+        let _ = writeln!(
+            text,
+            "    dry += {} * math.hypot({} * math.sin(angle) + {} * math.cos(angle), {})",
+            number(term.coefficient),
+            number(term.load.sine_nm),
+            number(term.load.cosine_nm),
+            number(ROUNDED_LOAD_SHARE * term.load.amplitude_nm())
+        );
+    }
+    let mut gravity = arm.gravity.map_or(String::new(), |g| {
         format!(
             " + {} * math.sin(angle) + {} * math.cos(angle)",
             number(g.sine_nm),
             number(g.cosine_nm)
         )
     });
+    for ripple in &arm.torque_ripples {
+        let _ = write!(
+            gravity,
+            " + {} * math.cos({k} * angle) + {} * math.sin({k} * angle)",
+            number(ripple.cosine_nm),
+            number(ripple.sine_nm),
+            k = number(ripple.per_rad)
+        );
+    }
     let _ = writeln!(text, "    return sign * dry + {}{gravity}", number(arm.offset_nm));
     text
 }

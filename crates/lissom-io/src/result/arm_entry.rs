@@ -1,6 +1,6 @@
 //! The arm of a result in JSON, written and read.
 
-use lissom_core::identify::{FoundArm, TorqueUsed};
+use lissom_core::identify::{FoundArm, LagShape, TorqueUsed};
 use lissom_core::load::GravityLoad;
 use lissom_core::record::{Channels, Tip};
 use lissom_core::replay::{ModalArm, Oscillator, Parameter};
@@ -8,7 +8,7 @@ use serde::{Deserialize, Serialize};
 
 use super::arm_numbers::{Number, Numbers, WrongKey};
 use super::channel_names::{ArmSourceName, TipQuantityName};
-use super::friction_term_entries::ArmTermsEntry;
+use super::friction_term_entries::{ArmTermsEntry, ArmTorqueRippleEntry};
 use super::unit_keys::{
     CosineKey, CoulombKey, CouplingByTipKey, InertiaKey, OffsetKey, SineKey, StiffnessKey,
     ViscousBackwardKey, ViscousForwardKey, WithUnit,
@@ -42,8 +42,14 @@ pub struct ArmEntry {
     /// Gravity on its motor; null if there is none.
     #[serde(default)]
     pub gravity: Option<ArmGravityEntry>,
+    /// Torque ripples (cogging) of its motor; absent if there are none.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub torque_ripples: Vec<ArmTorqueRippleEntry>,
     /// Time by which the command acts later than it is logged.
     pub command_lag_s: f64,
+    /// Whether that lag is the time constant of a first-order filter, and not a delay.
+    #[serde(default)]
+    pub command_is_filtered: bool,
     /// Modes with the motor clamped, as oscillators on the motor.
     pub modes: Vec<OscillatorEntry>,
     /// Torque on the motor per deflection of each tip, if the logs show it but no mode. The arm then has no modes and
@@ -124,7 +130,13 @@ impl ArmEntry {
                 sine: WithUnit::new(names, g.sine_nm),
                 cosine: WithUnit::new(names, g.cosine_nm),
             }),
+            torque_ripples: a
+                .torque_ripples
+                .iter()
+                .map(|r| ArmTorqueRippleEntry::of(names, r))
+                .collect(),
             command_lag_s: a.command_lag_s,
+            command_is_filtered: found.lag_shape == LagShape::Filter,
             modes: a.modes.iter().map(|m| OscillatorEntry::of(names, m)).collect(),
             coupling_by_tip: WithUnit::where_some(
                 names,
@@ -165,6 +177,7 @@ impl ArmEntry {
             let (sine_nm, cosine_nm) = (number.of(&g.sine)?, number.of(&g.cosine)?);
             Ok(GravityLoad { sine_nm, cosine_nm })
         });
+        let ripples = self.torque_ripples.iter().map(|r| r.torque_ripple(names));
         let arm = ModalArm {
             inertia_kg_m2: number.positive(&self.inertia)?,
             viscous_nm_s_per_rad: [
@@ -177,6 +190,7 @@ impl ArmEntry {
             shapes: self.tips.iter().map(|tip| tip.shape.clone()).collect(),
             at_points_per_s: self.damping_at_points_per_s.clone(),
             gravity: gravity.transpose()?,
+            torque_ripples: ripples.collect::<Result<_, _>>()?,
             command_lag_s: number.sane("command_lag_s", self.command_lag_s)?,
             // Empty if no tip has a delay.
             tip_lags_s: if lags.iter().all(|lag| *lag == 0.0) { Vec::new() } else { lags },
@@ -186,6 +200,7 @@ impl ArmEntry {
             arm,
             coupling_alone_nm_per_rad: coupling,
             source: self.from.source(),
+            lag_shape: if self.command_is_filtered { LagShape::Filter } else { LagShape::Delay },
             torque_used: self
                 .torque_error
                 .zip(window)

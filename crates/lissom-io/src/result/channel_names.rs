@@ -160,8 +160,6 @@ pub enum MethodName {
     OutputError,
     /// Regression in slip phases with the friction law that the data support.
     FrictionLaw,
-    /// Regression in slip phases with viscous friction by direction.
-    RegressionByDirection,
     /// Regression in slip phases with Coulomb friction and one viscous coefficient.
     Regression,
     /// Ordinary least squares of smoothed samples.
@@ -180,7 +178,6 @@ impl MethodName {
         Some(match method {
             Method::OutputError => Self::OutputError,
             Method::FrictionLaw => Self::FrictionLaw,
-            Method::RegressionByDirection => Self::RegressionByDirection,
             Method::Regression => Self::Regression,
             Method::LeastSquares => Self::LeastSquares,
             Method::FrequencyResponse => Self::FrequencyResponse,
@@ -195,7 +192,6 @@ impl MethodName {
         let method = match self {
             Self::OutputError => Method::OutputError,
             Self::FrictionLaw => Method::FrictionLaw,
-            Self::RegressionByDirection => Method::RegressionByDirection,
             Self::Regression => Method::Regression,
             Self::LeastSquares => Method::LeastSquares,
             Self::FrequencyResponse => Method::FrequencyResponse,

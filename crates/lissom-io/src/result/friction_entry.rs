@@ -1,6 +1,6 @@
 //! Identified friction in JSON.
 
-use lissom_core::identify::{CurvePoint, Friction, Identified};
+use lissom_core::identify::{CurvePoint, Estimate, Friction, Identified, LawEstimates};
 use serde::{Deserialize, Serialize};
 
 use super::channel_names::{AxisName, DirectionName};
@@ -8,8 +8,8 @@ use super::estimate_entry::EstimateEntry;
 use super::estimate_keys::{Estimated, Refusable};
 use super::friction_term_entries::FrictionTermsEntry;
 use super::unit_keys::{
-    BackwardKey, CoulombKey, ForwardKey, FrictionKey, OffsetKey, SpeedKey, ViscousBackwardKey,
-    ViscousForwardKey, ViscousKey, WithUnit,
+    BackwardKey, CoulombKey, ForwardKey, FrictionKey, OffsetKey, SpeedKey, SpeedRangeKey,
+    ViscousBackwardKey, ViscousForwardKey, ViscousKey, WithUnit,
 };
 use super::unit_names::UnitNames;
 
@@ -41,18 +41,36 @@ pub struct FrictionEntry {
     /// Viscous friction, without back-EMF if its constant is given.
     #[serde(flatten)]
     pub viscous: Refusable<ViscousKey>,
+    /// The law of friction, if it has terms beyond Coulomb and viscous friction; these are then the line that is nearest to it at
+    /// the speeds of the log, without a load, weighted with time.
+    pub law: Option<LawEntry>,
+    /// Friction against speed without a law, ascending in speed, forward then backward; only speeds at which slip
+    /// phases have data.
+    pub curve: Vec<CurvePointEntry>,
+}
+
+/// A law of friction with its own values, which predict friction.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+pub struct LawEntry {
+    /// Smallest and largest speed for which it was found; absent if they are unknown.
+    #[serde(flatten)]
+    pub speed_range: WithUnit<SpeedRangeKey, [f64; 2]>,
+    /// Its Coulomb friction.
+    #[serde(flatten)]
+    pub coulomb: CoulombEntry,
+    /// Its viscous friction, without back-EMF if its constant is given.
+    #[serde(flatten)]
+    pub viscous: Refusable<ViscousKey>,
     /// Viscous friction forward; absent unless the data reject one value for both directions.
     #[serde(flatten)]
     pub viscous_forward: Estimated<ViscousForwardKey>,
     /// Viscous friction backward; absent unless the data reject one value for both directions.
     #[serde(flatten)]
     pub viscous_backward: Estimated<ViscousBackwardKey>,
-    /// Further terms of friction.
+    /// Its further terms.
     #[serde(flatten)]
     pub terms: FrictionTermsEntry,
-    /// Friction against speed without a law, ascending in speed, forward then backward; only speeds at which slip
-    /// phases have data.
-    pub curve: Vec<CurvePointEntry>,
 }
 
 /// A point of the friction curve.
@@ -91,14 +109,52 @@ impl FrictionEntry {
         all.copied().find(|names| self.coulomb.coulomb.has_keys_of(*names))
     }
 
-    /// Friction against the motion at a speed in a direction, without ripples; positive if it brakes. `None` if one of its
-    /// parameters is refused.
+    /// Friction against the motion at a speed in a direction, without ripples and without a load; positive if it brakes. `None`
+    /// if one of its parameters is refused.
     pub fn at(&self, names: UnitNames, speed: f64, direction: DirectionName) -> Option<f64> {
-        let value = |entry: Option<&Option<EstimateEntry>>| Some(entry?.as_ref()?.value);
-        let coulomb = match direction {
-            DirectionName::Forward => value(self.coulomb.forward.get(names)),
-            DirectionName::Backward => value(self.coulomb.backward.get(names)),
-        };
+        if let Some(law) = &self.law {
+            return law.at(names, speed, direction);
+        }
+        let viscous = value(self.viscous.get(names))?;
+        Some(self.coulomb.one_way(names, direction)? + viscous * speed)
+    }
+
+    /// The entry of a result's friction; `constant` is torque per command.
+    pub(crate) fn of(names: UnitNames, constant: f64, id: &Identified) -> Self {
+        let f = &id.friction;
+        let found = id.friction_law.as_ref();
+        let curve = found.map_or(&[][..], |law| &law.curve);
+        let speeds = found.map(|law| law.speed_range);
+        Self {
+            coulomb: CoulombEntry::of(names, constant, f),
+            viscous: WithUnit::new(names, EstimateEntry::or_null(f.viscous)),
+            law: f.law.as_ref().map(|law| LawEntry::of(names, constant, law, f.offset, speeds)),
+            curve: curve
+                .iter()
+                .filter(|p| p.friction.value.is_finite() && p.friction.std.is_finite())
+                .map(|p| CurvePointEntry::of(names, constant, p))
+                .collect(),
+        }
+    }
+}
+
+impl CoulombEntry {
+    /// Coulomb friction in a direction; `None` if it is refused.
+    fn one_way(&self, names: UnitNames, direction: DirectionName) -> Option<f64> {
+        match direction {
+            DirectionName::Forward => value(self.forward.get(names)),
+            DirectionName::Backward => value(self.backward.get(names)),
+        }
+    }
+}
+
+/// The value of an estimate that is not refused.
+fn value(entry: Option<&Option<EstimateEntry>>) -> Option<f64> {
+    Some(entry?.as_ref()?.value)
+}
+
+impl LawEntry {
+    fn at(&self, names: UnitNames, speed: f64, direction: DirectionName) -> Option<f64> {
         let one_way = match direction {
             DirectionName::Forward => self.viscous_forward.get(names),
             DirectionName::Backward => self.viscous_backward.get(names),
@@ -111,25 +167,32 @@ impl FrictionEntry {
             let share = near.falloff.falloff().share(speed / near.speed.get(names)?.value);
             Some(value(near.amplitude.get(names))? * share)
         });
-        Some(coulomb? + viscous * speed + near?)
+        let root = self.terms.root.get(names).map_or(0.0, |root| root.value * speed.sqrt());
+        Some(self.coulomb.one_way(names, direction)? + viscous * speed + near? + root)
     }
 
-    /// The entry of a result's friction; `constant` is torque per command.
-    pub(crate) fn of(names: UnitNames, constant: f64, id: &Identified) -> Self {
-        let f = &id.friction;
-        let (forward, backward) = f.viscous_by_direction.unzip();
-        let curve = id.friction_law.as_ref().map_or(&[][..], |law| &law.curve);
+    fn of(
+        names: UnitNames,
+        constant: f64,
+        law: &LawEstimates,
+        offset: Option<Estimate>,
+        speeds: Option<[f64; 2]>,
+    ) -> Self {
+        let (forward, backward) = law.viscous_by_direction.unzip();
+        let coulomb = Friction {
+            coulomb: law.coulomb,
+            forward: law.forward,
+            backward: law.backward,
+            offset,
+            ..Friction::default()
+        };
         Self {
-            coulomb: CoulombEntry::of(names, constant, f),
-            viscous: WithUnit::new(names, EstimateEntry::or_null(f.viscous)),
+            speed_range: WithUnit::where_some(names, speeds),
+            coulomb: CoulombEntry::of(names, constant, &coulomb),
+            viscous: WithUnit::new(names, EstimateEntry::or_null(law.viscous)),
             viscous_forward: WithUnit::where_some(names, EstimateEntry::or_null(forward)),
             viscous_backward: WithUnit::where_some(names, EstimateEntry::or_null(backward)),
-            terms: FrictionTermsEntry::of(names, constant, f),
-            curve: curve
-                .iter()
-                .filter(|p| p.friction.value.is_finite() && p.friction.std.is_finite())
-                .map(|p| CurvePointEntry::of(names, constant, p))
-                .collect(),
+            terms: FrictionTermsEntry::of(names, constant, law),
         }
     }
 }

@@ -1,16 +1,16 @@
 //! The choice of the friction law, in JSON.
 
-use lissom_core::identify::{Estimate, FrictionLaw, LawCandidate, LawFit, LawTerm};
+use lissom_core::identify::{Estimate, FrictionLaw, LawCandidate, LawFit, LawTerm, ModelTerm};
 use serde::{Deserialize, Serialize};
 
 use super::channel_names::DirectionName;
-use super::estimate_entry::EstimateEntry;
+use super::estimate_entry::{EstimateEntry, finite};
 use super::estimate_keys::{Estimated, Refusable};
 use super::friction_term_entries::{LawTermEntry, amplitude_key};
 use super::gravity_entry::GravityEntry;
 use super::unit_keys::{
-    AtRestKey, CoulombKey, CouplingKey, InertiaKey, LawAmplitudeKey, OffsetKey, SpeedRangeKey,
-    ViscousKey, WithUnit,
+    CoulombKey, CouplingKey, InertiaKey, LawAmplitudeKey, OffsetKey, SpeedRangeKey, ViscousKey,
+    WithUnit,
 };
 use super::unit_names::UnitNames;
 
@@ -87,21 +87,18 @@ pub struct LawCandidateEntry {
     /// The term.
     #[serde(flatten)]
     pub term: LawTermEntry,
-    /// Number of terms that the law had before.
+    /// Number of terms that the model had before.
     pub beside_terms: usize,
-    /// Its amplitude, for a ripple that of cosine and sine together.
+    /// Its amplitude; for a term with several numbers, their length.
     #[serde(flatten)]
     pub amplitude: Estimated<LawAmplitudeKey>,
-    /// Residual with the term relative to the residual without it.
-    pub residual_ratio: f64,
-    /// Improvement in slip phases that were left out of the fit, in standard errors.
-    pub paired_standard_errors: f64,
-    /// The same ratio in stretches of one kind (direction, speed, side of the travel) that were left out of the fit.
-    pub stretch_ratio: f64,
-    /// Friction at rest with the term, in the direction in which it is smaller.
-    #[serde(flatten)]
-    pub at_rest: Estimated<AtRestKey>,
-    /// Whether the term was accepted.
+    /// Squared residual that it saves in blocks that were left out of the fit, as a share of that without it.
+    pub saved: f64,
+    /// The same in standard errors; null if there are too few blocks.
+    pub standard_errors: Option<f64>,
+    /// Whether whole kinds of motion that were left out (by direction, speed, side of the travel, run) are predicted better.
+    pub across_kinds: bool,
+    /// Whether the term was adopted.
     pub taken: bool,
 }
 
@@ -139,7 +136,7 @@ impl ChosenLawEntry {
             // The period of a ripple has a key of its own.
             amplitude: WithUnit::under(
                 amplitude_key(names, *term),
-                EstimateEntry::list(amplitudes.iter().take(2)),
+                EstimateEntry::list(amplitudes.iter().take(numbers_of(*term))),
             ),
         };
         Self {
@@ -154,20 +151,24 @@ impl ChosenLawEntry {
     }
 }
 
+/// Numbers of a term that are amplitudes: cosine and sine of a ripple.
+fn numbers_of(term: LawTerm) -> usize {
+    if matches!(term, LawTerm::Ripple { .. } | LawTerm::TorqueRipple { .. }) { 2 } else { 1 }
+}
+
 impl LawCandidateEntry {
     fn of(names: UnitNames, c: &LawCandidate) -> Self {
-        let at_rest = Estimate { value: c.at_rest, std: c.at_rest_std };
+        let key = match c.term {
+            ModelTerm::Law(term) => amplitude_key(names, term),
+            ModelTerm::Missing(_) => "amplitude".to_owned(),
+        };
         Self {
-            term: LawTermEntry::of(names, c.term),
+            term: LawTermEntry::of_model(names, c.term),
             beside_terms: c.beside,
-            amplitude: WithUnit::under(
-                amplitude_key(names, c.term),
-                EstimateEntry::of(c.amplitude),
-            ),
-            residual_ratio: c.residual_ratio,
-            paired_standard_errors: c.paired,
-            stretch_ratio: c.stretch_ratio,
-            at_rest: WithUnit::new(names, EstimateEntry::of(at_rest)),
+            amplitude: WithUnit::under(key, EstimateEntry::of(c.amplitude)),
+            saved: c.saved,
+            standard_errors: finite(c.standard_errors),
+            across_kinds: c.across_kinds,
             taken: c.taken,
         }
     }

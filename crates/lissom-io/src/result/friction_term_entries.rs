@@ -2,8 +2,11 @@
 
 use std::f64::consts::TAU;
 
-use lissom_core::identify::{Friction, LawTerm, NearRestEstimate, RippleEstimate};
-use lissom_core::replay::{DryTerms, NearRest, Ripple};
+use lissom_core::identify::{
+    LawEstimates, LawTerm, MissingKind, ModelTerm, NearRestEstimate, RippleEstimate,
+};
+use lissom_core::load::{GravityLoad, TorqueRipple};
+use lissom_core::replay::{DryTerms, NearRest, Ripple, Root, WithLoad};
 use serde::{Deserialize, Serialize};
 
 use super::arm_numbers::{Number, Numbers, WrongKey};
@@ -11,7 +14,8 @@ use super::channel_names::{DirectionName, FalloffName};
 use super::estimate_entry::EstimateEntry;
 use super::estimate_keys::{Estimated, Refusable};
 use super::unit_keys::{
-    AmplitudeKey, CosineKey, PeriodKey, SineKey, SpeedKey, StaticKey, TravelKey, WithUnit,
+    AmplitudeKey, CosineKey, PeriodKey, RootAmplitudeKey, RootKey, SineKey, SpeedKey, StaticKey,
+    WithUnit,
 };
 use super::unit_names::UnitNames;
 
@@ -28,10 +32,16 @@ pub struct FrictionTermsEntry {
     /// mu of the term s*mu*|gravity torque|: friction that grows with the load; absent unless the data show it.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub with_load: Option<EstimateEntry>,
+    /// Growth with the square root of speed, s*A*sqrt|v|; absent unless the data show it.
+    #[serde(flatten)]
+    pub root: Estimated<RootKey>,
     /// Ripples of friction over the travel x, s*A*cos(2*pi*x/period + phase), s the direction; absent unless the data
     /// show them.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub ripples: Vec<RippleEntry>,
+    /// Ripples of torque (cogging), A*cos(2*pi*x/period + phase) in both directions alike; absent unless the data show them.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub torque_ripples: Vec<RippleEntry>,
 }
 
 /// Friction near rest: s*A*exp(-|v|/v_s) or s*A*exp(-(v/v_s)^2), s the direction.
@@ -71,6 +81,37 @@ pub struct ArmTermsEntry {
     pub near_rest: Option<ArmNearRestEntry>,
     /// Ripples of friction over the travel.
     pub ripples: Vec<ArmRippleEntry>,
+    /// Friction that grows with the square root of speed; absent if there is none.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub root: Option<ArmRootEntry>,
+    /// Friction that grows with the torque of gravity; absent if there is none.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub with_load: Option<ArmWithLoadEntry>,
+}
+
+/// Friction that grows with the square root of speed: s*A*(sqrt(|v| + e) - sqrt(e)), s the direction, e = 1e-8 in the unit
+/// of v.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+pub struct ArmRootEntry {
+    /// Amplitude A.
+    #[serde(flatten)]
+    pub amplitude: Number<RootAmplitudeKey>,
+}
+
+/// Friction that grows with the torque of gravity: s*mu*sqrt(g^2 + d^2) with g = sine*sin(q) + cosine*cos(q), q the motor's
+/// angle, s the direction and d a thousandth of the largest g.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+pub struct ArmWithLoadEntry {
+    /// Coefficient mu.
+    pub coefficient: f64,
+    /// Coefficient of sin(q).
+    #[serde(flatten)]
+    pub sine: Number<SineKey>,
+    /// Coefficient of cos(q).
+    #[serde(flatten)]
+    pub cosine: Number<CosineKey>,
 }
 
 /// Friction near rest: s*A*exp(-|v|/v_s) or s*A*exp(-(v/v_s)^2), s the direction. Friction at rest is Coulomb friction
@@ -103,6 +144,16 @@ pub struct ArmRippleEntry {
     pub sine: Number<SineKey>,
 }
 
+/// A torque ripple (cogging) of the motor: cosine*cos(k*x) + sine*sin(k*x) over the travel x, k = 2*pi/period, in both
+/// directions and at rest.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+pub struct ArmTorqueRippleEntry {
+    /// The same keys as those of a ripple of friction.
+    #[serde(flatten)]
+    wave: ArmRippleEntry,
+}
+
 /// A term of friction, without its amplitude.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
@@ -115,12 +166,9 @@ pub struct LawTermEntry {
     /// Speed v_s; only for `near-rest`.
     #[serde(flatten)]
     pub speed: WithUnit<SpeedKey, f64>,
-    /// Its period; only for `ripple`.
+    /// Its period; only for `ripple` and `torque-ripple`.
     #[serde(flatten)]
     pub period: WithUnit<PeriodKey, f64>,
-    /// Travel after a reversal that is left out; only for `after-travel`.
-    #[serde(flatten)]
-    pub travel: WithUnit<TravelKey, f64>,
 }
 
 /// A term of friction.
@@ -132,25 +180,47 @@ pub enum LawTermName {
     ViscousByDirection,
     /// Friction near rest: s*A*exp(-|v|/v_s) or s*A*exp(-(v/v_s)^2), by falloff.
     NearRest,
-    /// Friction grows after reversals: the first travel after each reversal is left out; no amplitude.
-    AfterTravel,
     /// Square root of the speed: s*A*sqrt|v|.
     Root,
     /// Growth with the load: s*A*|gravity torque|.
     WithLoad,
     /// A ripple: s*(A1*cos(k*x) + A2*sin(k*x)) over the travel x.
     Ripple,
+    /// A torque that acts in both directions alike (cogging): A1*cos(k*x) + A2*sin(k*x) over the travel x.
+    TorqueRipple,
     /// A lag of the command: time by which the command acts later than it is logged.
     CommandLag,
+    /// A torque in proportion to position; only reported.
+    Position,
+    /// An unbalanced load; only reported.
+    Gravity,
+    /// Damping within the beam; only reported.
+    BeamDamping,
+    /// A torque constant that differs by the sign of the command; only reported.
+    CommandBySign,
+    /// Friction that grows with the torque of the motor; only reported.
+    WithTorque,
+    /// Friction that varies over the travel; only reported.
+    OverTravel,
+    /// Coulomb friction that changes over the campaign; only reported.
+    CoulombDrift,
+    /// Viscous friction that changes over the campaign; only reported.
+    ViscousDrift,
 }
 
 impl FrictionTermsEntry {
     /// The entry of the estimated terms; `constant` is torque per command.
-    pub(super) fn of(names: UnitNames, constant: f64, f: &Friction) -> Self {
+    pub(super) fn of(names: UnitNames, constant: f64, f: &LawEstimates) -> Self {
         Self {
             near_rest: f.near_rest.map(|near| NearRestEntry::of(names, constant, near)),
             with_load: f.with_load.map(EstimateEntry::of),
+            root: WithUnit::where_some(names, f.root.map(EstimateEntry::of)),
             ripples: f.ripples.iter().map(|r| RippleEntry::of(names, constant, *r)).collect(),
+            torque_ripples: f
+                .torque_ripples
+                .iter()
+                .map(|r| RippleEntry::of(names, constant, *r))
+                .collect(),
         }
     }
 }
@@ -180,12 +250,22 @@ impl ArmTermsEntry {
         Self {
             near_rest: terms.near_rest.map(|n| ArmNearRestEntry::of(names, &n)),
             ripples: terms.ripples.iter().map(|r| ArmRippleEntry::of(names, r)).collect(),
+            root: terms.root.map(|root| ArmRootEntry {
+                amplitude: WithUnit::new(names, root.torque_nm_per_root_rad_s),
+            }),
+            with_load: terms.with_load.map(|term| ArmWithLoadEntry {
+                coefficient: term.coefficient,
+                sine: WithUnit::new(names, term.load.sine_nm),
+                cosine: WithUnit::new(names, term.load.cosine_nm),
+            }),
         }
     }
 
     pub(super) fn dry_terms(&self, names: UnitNames) -> Result<DryTerms, WrongKey> {
-        let ripples = self.ripples.iter().map(|r| r.ripple(names));
+        let ripples = self.ripples.iter().map(|r| r.ripple(names, "arm.ripples[]"));
         Ok(DryTerms {
+            root: self.root.as_ref().map(|r| r.root(names)).transpose()?,
+            with_load: self.with_load.as_ref().map(|l| l.with_load(names)).transpose()?,
             near_rest: self.near_rest.as_ref().map(|n| n.near_rest(names)).transpose()?,
             ripples: ripples.collect::<Result<_, _>>()?,
         })
@@ -212,6 +292,35 @@ impl ArmNearRestEntry {
     }
 }
 
+impl ArmRootEntry {
+    fn root(&self, names: UnitNames) -> Result<Root, WrongKey> {
+        let number = Numbers { names, at: "arm.root" };
+        Ok(Root { torque_nm_per_root_rad_s: number.of(&self.amplitude)? })
+    }
+}
+
+impl ArmWithLoadEntry {
+    fn with_load(&self, names: UnitNames) -> Result<WithLoad, WrongKey> {
+        let number = Numbers { names, at: "arm.with_load" };
+        let (sine_nm, cosine_nm) = (number.of(&self.sine)?, number.of(&self.cosine)?);
+        let coefficient = number.sane("coefficient", self.coefficient)?;
+        Ok(WithLoad { coefficient, load: GravityLoad { sine_nm, cosine_nm } })
+    }
+}
+
+impl ArmTorqueRippleEntry {
+    pub(super) fn of(names: UnitNames, r: &TorqueRipple) -> Self {
+        let TorqueRipple { per_rad, cosine_nm, sine_nm } = *r;
+        Self { wave: ArmRippleEntry::of(names, &Ripple { per_rad, cosine_nm, sine_nm }) }
+    }
+
+    pub(super) fn torque_ripple(&self, names: UnitNames) -> Result<TorqueRipple, WrongKey> {
+        let wave = self.wave.ripple(names, "arm.torque_ripples[]")?;
+        let Ripple { per_rad, cosine_nm, sine_nm } = wave;
+        Ok(TorqueRipple { per_rad, cosine_nm, sine_nm })
+    }
+}
+
 impl ArmRippleEntry {
     fn of(names: UnitNames, r: &Ripple) -> Self {
         Self {
@@ -221,8 +330,8 @@ impl ArmRippleEntry {
         }
     }
 
-    fn ripple(&self, names: UnitNames) -> Result<Ripple, WrongKey> {
-        let number = Numbers { names, at: "arm.ripples[]" };
+    fn ripple(&self, names: UnitNames, at: &'static str) -> Result<Ripple, WrongKey> {
+        let number = Numbers { names, at };
         let period = number.of(&self.period)?;
         if period < SHORTEST {
             return Err(number.wrong(&number.key::<PeriodKey>(), "1e-6 or more"));
@@ -236,24 +345,32 @@ impl ArmRippleEntry {
 }
 
 impl LawTermEntry {
+    pub(super) fn of_model(names: UnitNames, term: ModelTerm) -> Self {
+        match term {
+            ModelTerm::Law(term) => Self::of(names, term),
+            ModelTerm::Missing(kind) => Self {
+                term: LawTermName::of_missing(kind),
+                falloff: None,
+                speed: WithUnit::absent(),
+                period: WithUnit::absent(),
+            },
+        }
+    }
+
     pub(super) fn of(names: UnitNames, term: LawTerm) -> Self {
         let mut entry = Self {
             term: LawTermName::of(term),
             falloff: None,
             speed: WithUnit::absent(),
             period: WithUnit::absent(),
-            travel: WithUnit::absent(),
         };
         match term {
             LawTerm::NearRest { speed, falloff } => {
                 entry.falloff = Some(FalloffName::of(falloff));
                 entry.speed = WithUnit::new(names, speed);
             }
-            LawTerm::Ripple { per_angle } => {
+            LawTerm::Ripple { per_angle } | LawTerm::TorqueRipple { per_angle } => {
                 entry.period = WithUnit::new(names, TAU / per_angle);
-            }
-            LawTerm::AfterTravel { travel } => {
-                entry.travel = WithUnit::new(names, travel);
             }
             LawTerm::ViscousByDirection
             | LawTerm::Root
@@ -274,10 +391,7 @@ impl LawTermEntry {
                 fall.zip(falloff).map_or(0.0, |(fall, of)| of.falloff().share(speed / fall))
             }
             LawTermName::Root => speed.sqrt(),
-            LawTermName::CommandLag
-            | LawTermName::Ripple
-            | LawTermName::WithLoad
-            | LawTermName::AfterTravel => 0.0,
+            _ => 0.0,
         }
     }
 }
@@ -288,11 +402,32 @@ impl LawTermName {
         match self {
             Self::ViscousByDirection => "viscous-by-direction",
             Self::NearRest => "near-rest",
-            Self::AfterTravel => "after-travel",
+            Self::TorqueRipple => "torque-ripple",
             Self::Root => "root",
             Self::WithLoad => "with-load",
             Self::Ripple => "ripple",
             Self::CommandLag => "command-lag",
+            Self::Position => "position",
+            Self::Gravity => "gravity",
+            Self::BeamDamping => "beam-damping",
+            Self::CommandBySign => "command-by-sign",
+            Self::WithTorque => "with-torque",
+            Self::OverTravel => "over-travel",
+            Self::CoulombDrift => "coulomb-drift",
+            Self::ViscousDrift => "viscous-drift",
+        }
+    }
+
+    fn of_missing(kind: MissingKind) -> Self {
+        match kind {
+            MissingKind::Position => Self::Position,
+            MissingKind::Gravity => Self::Gravity,
+            MissingKind::BeamDamping => Self::BeamDamping,
+            MissingKind::CommandBySign => Self::CommandBySign,
+            MissingKind::WithTorque => Self::WithTorque,
+            MissingKind::OverTravel => Self::OverTravel,
+            MissingKind::CoulombDrift => Self::CoulombDrift,
+            MissingKind::ViscousDrift => Self::ViscousDrift,
         }
     }
 
@@ -300,7 +435,7 @@ impl LawTermName {
         match term {
             LawTerm::ViscousByDirection => Self::ViscousByDirection,
             LawTerm::NearRest { .. } => Self::NearRest,
-            LawTerm::AfterTravel { .. } => Self::AfterTravel,
+            LawTerm::TorqueRipple { .. } => Self::TorqueRipple,
             LawTerm::Root => Self::Root,
             LawTerm::WithLoad { .. } => Self::WithLoad,
             LawTerm::Ripple { .. } => Self::Ripple,
@@ -313,7 +448,7 @@ impl LawTermName {
 pub(super) fn amplitude_key(names: UnitNames, term: LawTerm) -> String {
     match term {
         LawTerm::ViscousByDirection => names.viscous_key("amplitude"),
-        LawTerm::NearRest { .. } | LawTerm::AfterTravel { .. } | LawTerm::Ripple { .. } => {
+        LawTerm::NearRest { .. } | LawTerm::Ripple { .. } | LawTerm::TorqueRipple { .. } => {
             format!("amplitude_{}", names.torque())
         }
         LawTerm::Root => names.root_key("amplitude"),

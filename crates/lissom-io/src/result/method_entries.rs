@@ -1,8 +1,8 @@
 //! Estimates of each method in JSON.
 
 use lissom_core::identify::{
-    BeamRegression, ByDirection, Candidate, DriveEstimates, Estimate, Friction, HiddenMode,
-    Identified, LeastSquares, MotorFit, MotorRegression, ThirdHarmonic,
+    BeamRegression, Candidate, DriveEstimates, Friction, HiddenMode, Identified, LeastSquares,
+    MotorFit, MotorRegression, ThirdHarmonic,
 };
 use lissom_core::record::Channels;
 use serde::{Deserialize, Serialize};
@@ -17,7 +17,7 @@ use super::linear_model_entries::TransferFunctionEntry;
 use super::output_error_entry::OutputErrorEntry;
 use super::unit_keys::{
     CoulombKey, CouplingByModeKey, CouplingByTipKey, InertiaKey, SpeedRangeKey, SpreadKey,
-    ViscousBackwardKey, ViscousForwardKey, ViscousKey, WithUnit,
+    ViscousKey, WithUnit,
 };
 use super::unit_names::UnitNames;
 
@@ -111,8 +111,6 @@ pub struct RegressionEntry {
     pub coupling_by_tip: WithUnit<CouplingByTipKey, Vec<Option<EstimateEntry>>>,
     /// Gravity; null unless the campaign asks for it.
     pub gravity: Option<GravityEntry>,
-    /// Fit with one viscous coefficient for each direction; null if one for both is sufficient.
-    pub viscous_by_direction: Option<ViscousByDirectionEntry>,
     /// A flexible mode without a tip, which the estimates account for; null if there is none.
     pub hidden_mode: Option<HiddenModeEntry>,
     /// Length of the window used.
@@ -157,29 +155,6 @@ impl HiddenModeEntry {
             window_s: mode.window_s,
         }
     }
-}
-
-/// A separate fit of the same equation with one viscous coefficient for each direction.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
-pub struct ViscousByDirectionEntry {
-    /// Viscous friction forward.
-    #[serde(flatten)]
-    pub viscous_forward: Estimated<ViscousForwardKey>,
-    /// Viscous friction backward.
-    #[serde(flatten)]
-    pub viscous_backward: Estimated<ViscousBackwardKey>,
-    /// Coulomb friction of this fit.
-    #[serde(flatten)]
-    pub coulomb: CoulombEntry,
-    /// Inertia or mass of this fit.
-    #[serde(flatten)]
-    pub inertia: Refusable<InertiaKey>,
-    /// Coupling by tip of this fit.
-    #[serde(flatten)]
-    pub coupling_by_tip: WithUnit<CouplingByTipKey, Vec<Option<EstimateEntry>>>,
-    /// Residual of this equation as a share of the windowed torque.
-    pub relative_residual: f64,
 }
 
 /// Ordinary least squares of all motion faster than 5 % of the largest speed: the method of many publications, and a
@@ -332,10 +307,6 @@ impl RegressionEntry {
             inertia: WithUnit::new(names, EstimateEntry::or_null(r.inertia)),
             coupling_by_tip: WithUnit::new(names, coupling.collect()),
             gravity: r.gravity.as_ref().map(|g| GravityEntry::of(names, g, None)),
-            viscous_by_direction: r
-                .viscous_by_direction
-                .as_ref()
-                .map(|d| ViscousByDirectionEntry::of(names, constant, d)),
             hidden_mode: r.mode.map(HiddenModeEntry::of),
             window_s: r.window_s,
             window_given: r.window_given,
@@ -348,23 +319,6 @@ impl RegressionEntry {
                 window_s: b.window_s.clone(),
                 relative_residual: b.relative_residual.clone(),
             }),
-        }
-    }
-}
-
-impl ViscousByDirectionEntry {
-    fn of(names: UnitNames, constant: f64, d: &ByDirection) -> Self {
-        let DriveEstimates { friction, inertia, coupling_by_tip, .. } = &d.estimates;
-        let (forward, backward) = friction.viscous_by_direction.unzip();
-        let coupling = coupling_by_tip.iter().map(|e| EstimateEntry::or_null(*e));
-        let given = |e: Option<Estimate>| e.map(EstimateEntry::of);
-        Self {
-            viscous_forward: WithUnit::where_some(names, given(forward)),
-            viscous_backward: WithUnit::where_some(names, given(backward)),
-            coulomb: CoulombEntry::of(names, constant, friction),
-            inertia: WithUnit::new(names, EstimateEntry::or_null(*inertia)),
-            coupling_by_tip: WithUnit::new(names, coupling.collect()),
-            relative_residual: d.relative_residual,
         }
     }
 }

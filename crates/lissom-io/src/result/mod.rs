@@ -55,7 +55,7 @@ pub(crate) use estimate_entry::finite;
 pub use estimate_entry::{BeamModeEntry, EstimateEntry};
 pub use estimate_keys::{Estimated, Refusable};
 pub use finding_entry::{FindingEntry, SeverityName};
-pub use friction_entry::{CoulombEntry, CurvePointEntry, FrictionEntry};
+pub use friction_entry::{CoulombEntry, CurvePointEntry, FrictionEntry, LawEntry};
 pub use friction_law_entry::{
     ChosenLawEntry, ChosenTermEntry, FrictionLawEntry, LawCandidateEntry, LawResidualEntry,
 };
@@ -71,7 +71,7 @@ pub use linear_model_entries::{
 };
 pub use method_entries::{
     BeamRegressionEntry, HiddenModeEntry, LeastSquaresEntry, MethodEntries, MotorFitEntry,
-    RegressionEntry, SinePairEntry, ThirdHarmonicEntry, ViscousByDirectionEntry, WindowEntry,
+    RegressionEntry, SinePairEntry, ThirdHarmonicEntry, WindowEntry,
 };
 pub use output_error_entry::{ExtensionEntry, OutputErrorEntry, StageEntry, StopName};
 pub use payload_file::{

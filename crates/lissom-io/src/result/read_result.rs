@@ -11,7 +11,6 @@ use super::estimate_keys::Refusable;
 use super::finding_entry::{FindingEntry, SeverityName};
 use super::finding_keys::{COULOMB, COUPLING, GRAVITY, INERTIA, MODES, OFFSET, VISCOUS};
 use super::friction_entry::FrictionEntry;
-use super::friction_law_entry::ChosenTermEntry;
 use super::friction_term_entries::LawTermName;
 use super::gravity_entry::GravityEntry;
 use super::result_error::ResultError;
@@ -66,25 +65,7 @@ struct ParameterPart {
     #[serde(default)]
     gravity: Option<GravityEntry>,
     beam: BeamEntry,
-    #[serde(default)]
-    methods: MethodsPart,
     findings: Vec<FindingEntry>,
-}
-
-#[derive(Debug, Default, Deserialize)]
-struct MethodsPart {
-    #[serde(default)]
-    friction_law: Option<FrictionLawPart>,
-}
-
-#[derive(Debug, Deserialize)]
-struct FrictionLawPart {
-    chosen: ChosenLawPart,
-}
-
-#[derive(Debug, Deserialize)]
-struct ChosenLawPart {
-    terms: Vec<ChosenTermEntry>,
 }
 
 /// Reads the parameters of a result.
@@ -135,10 +116,6 @@ impl ParameterList {
     /// The parameters of a result. `None` if its keys do not have the units of an axis, which results from
     /// [`ResultFile::of`] always have.
     pub fn of(result: &ResultFile) -> Option<Self> {
-        let law = result.methods.friction_law.as_ref();
-        let law = law.map(|law| FrictionLawPart {
-            chosen: ChosenLawPart { terms: law.chosen.terms.clone() },
-        });
         let part = ParameterPart {
             axis: result.axis,
             torque_per_command: result.torque_per_command,
@@ -147,7 +124,6 @@ impl ParameterList {
             drive: result.drive.clone(),
             gravity: result.gravity.clone(),
             beam: result.beam.clone(),
-            methods: MethodsPart { friction_law: law },
             findings: result.findings.clone(),
         };
         part.list()
@@ -174,17 +150,15 @@ impl ParameterPart {
 
     /// Terms of the friction law of the result.
     fn friction_terms(&self) -> Vec<LawTermName> {
-        let f = &self.friction;
+        let Some(law) = &self.friction.law else { return Vec::new() };
+        let t = &law.terms;
         let mut terms = Vec::new();
-        terms.extend(f.viscous_forward.any().map(|_| LawTermName::ViscousByDirection));
-        terms.extend(f.terms.near_rest.as_ref().map(|_| LawTermName::NearRest));
-        terms.extend(f.terms.with_load.as_ref().map(|_| LawTermName::WithLoad));
-        terms.extend(f.terms.ripples.iter().map(|_| LawTermName::Ripple));
-        let law = self.methods.friction_law.as_ref();
-        let law = law.filter(|_| self.from == Some(MethodName::FrictionLaw));
-        let chosen = law.map_or(&[][..], |law| &law.chosen.terms).iter().map(|t| t.term.term);
-        // The other terms have their own estimates above.
-        terms.extend(chosen.filter(|t| matches!(t, LawTermName::AfterTravel | LawTermName::Root)));
+        terms.extend(law.viscous_forward.any().map(|_| LawTermName::ViscousByDirection));
+        terms.extend(t.near_rest.as_ref().map(|_| LawTermName::NearRest));
+        terms.extend(t.root.any().map(|_| LawTermName::Root));
+        terms.extend(t.with_load.as_ref().map(|_| LawTermName::WithLoad));
+        terms.extend(t.ripples.iter().map(|_| LawTermName::Ripple));
+        terms.extend(t.torque_ripples.iter().map(|_| LawTermName::TorqueRipple));
         terms
     }
 }
@@ -200,7 +174,7 @@ impl<'a> Listing<'a> {
     fn of(names: UnitNames, part: &'a ParameterPart) -> Vec<ListedParameter> {
         let mut listing = Self { names, part, parameters: Vec::new() };
         listing.friction();
-        listing.friction_terms();
+        listing.friction_law();
         listing.drive_and_beam();
         listing.parameters
     }
@@ -280,32 +254,55 @@ impl<'a> Listing<'a> {
         self.keyed(("friction", backward, torque), &c.backward, &[COULOMB, OFFSET]);
         self.keyed(("friction", "Coulomb friction offset", torque), &c.offset, &[OFFSET]);
         self.keyed(("friction", "viscous friction", &viscous), &f.viscous, &[VISCOUS]);
-        let name = "viscous friction forward";
-        self.estimated(("friction", name, &viscous), &f.viscous_forward, &[VISCOUS]);
-        let name = "viscous friction backward";
-        self.estimated(("friction", name, &viscous), &f.viscous_backward, &[VISCOUS]);
     }
 
-    fn friction_terms(&mut self) {
-        let (terms, names) = (&self.part.friction.terms, self.names);
-        let (torque, angle) = (names.torque_unit(), names.angle());
+    /// The law of friction, if it has terms beyond the line.
+    fn friction_law(&mut self) {
+        let (Some(law), names) = (&self.part.friction.law, self.names) else { return };
+        let (torque, angle, viscous) = (names.torque_unit(), names.angle(), names.viscous_unit());
+        let table = "friction.law";
+        self.keyed(
+            (table, "Coulomb friction of the law", torque),
+            &law.coulomb.coulomb,
+            &[COULOMB],
+        );
+        self.keyed((table, "viscous friction of the law", &viscous), &law.viscous, &[VISCOUS]);
+        let name = "viscous friction forward";
+        self.estimated((table, name, &viscous), &law.viscous_forward, &[VISCOUS]);
+        let name = "viscous friction backward";
+        self.estimated((table, name, &viscous), &law.viscous_backward, &[VISCOUS]);
+        let terms = &law.terms;
         if let Some(near) = &terms.near_rest {
-            let table = "friction.near_rest";
-            self.keyed((table, "static friction", torque), &near.static_friction, &[COULOMB]);
+            let table = "friction.law.near_rest";
+            // None where friction does not rise towards rest: that refuses nothing.
+            if near.static_friction.get(names).is_some_and(Option::is_some) {
+                self.keyed((table, "static friction", torque), &near.static_friction, &[COULOMB]);
+            }
             self.keyed((table, "friction near rest", torque), &near.amplitude, &[COULOMB]);
             let unit = format!("{angle}/s");
             self.estimated((table, "friction near rest speed", &unit), &near.speed, &[COULOMB]);
         }
+        let unit = format!("{torque}/√({angle}/s)");
+        self.estimated(
+            (table, "friction per root of speed", &unit),
+            &terms.root,
+            &[COULOMB, VISCOUS],
+        );
         if let Some(with_load) = &terms.with_load {
-            let id = ("friction.with_load".to_owned(), "friction per load", "1");
+            let id = ("friction.law.with_load".to_owned(), "friction per load", "1");
             self.add(id, Some(with_load), &[COULOMB]);
         }
-        for (k, ripple) in terms.ripples.iter().enumerate() {
-            let table = format!("friction.ripples[{k}]");
-            let name = format!("ripple {}", k + 1);
-            self.keyed((&table, &name, torque), &ripple.amplitude, &[COULOMB]);
-            let name = format!("{name} period");
-            self.estimated((&table, &name, angle), &ripple.period, &[COULOMB]);
+        for (list, what, ripples) in [
+            ("ripples", "ripple", &terms.ripples),
+            ("torque_ripples", "torque ripple", &terms.torque_ripples),
+        ] {
+            for (k, ripple) in ripples.iter().enumerate() {
+                let table = format!("friction.law.{list}[{k}]");
+                let name = format!("{what} {}", k + 1);
+                self.keyed((&table, &name, torque), &ripple.amplitude, &[COULOMB]);
+                let name = format!("{name} period");
+                self.estimated((&table, &name, angle), &ripple.period, &[COULOMB]);
+            }
         }
     }
 

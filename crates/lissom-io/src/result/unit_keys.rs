@@ -41,6 +41,8 @@ enum Unit {
     Angle,
     /// Speed.
     Speed,
+    /// Torque or force per square root of speed.
+    Root,
     /// Unit of a term of the friction law.
     LawTerm,
 }
@@ -59,6 +61,7 @@ impl Unit {
             Self::Inertia => vec![names.inertia_key()],
             Self::Angle => vec![format!("{name}_{angle}")],
             Self::Speed => vec![format!("{name}_{angle}_per_s")],
+            Self::Root => vec![names.root_key(name)],
             Self::LawTerm => vec![
                 names.viscous_key(name),
                 format!("{name}_{torque}"),
@@ -119,6 +122,8 @@ quantities! {
     StaticKey = "static" in Torque;
     /// Torque per command.
     TorqueConstantKey = "torque_constant" in TorqueConstant;
+    /// Amplitude of the square root of speed.
+    RootAmplitudeKey = "amplitude" in Root;
     /// Amplitude of a term of the friction law, in the unit of the term; for a ripple those of cosine and sine.
     LawAmplitudeKey = "amplitude" in LawTerm;
     /// Amplitude of the motor's angle or position.
@@ -131,18 +136,16 @@ quantities! {
     VelocityKey = "velocity" in Speed;
     /// Period over the travel, 2*pi/k.
     PeriodKey = "period" in Angle;
-    /// Travel after a reversal.
-    TravelKey = "travel" in Angle;
     /// Torque on the motor per deflection of a mode.
     StiffnessKey = "stiffness" in Coupling;
+    /// Friction per square root of the speed.
+    RootKey = "root" in Root;
     /// Amplitude of the cosine over the travel.
     CosineKey = "cosine" in Torque;
     /// Amplitude of the sine over the travel.
     SineKey = "sine" in Torque;
     /// Friction against the motion, positive if it brakes; it includes a constant load.
     FrictionKey = "friction" in Torque;
-    /// Friction at rest with the term, in the direction in which it is smaller.
-    AtRestKey = "at_rest" in Torque;
     /// Coulomb friction from the slowest third of the speeds; null if these are all speeds.
     SlowestKey = "slowest" in Torque;
     /// Standard deviation of the Coulomb friction of one pair around the mean.

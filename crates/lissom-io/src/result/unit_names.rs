@@ -48,7 +48,7 @@ impl UnitNames {
         match self.command {
             CommandQuantity::Current => "a",
             CommandQuantity::Voltage => "v",
-            CommandQuantity::Arbitrary => "command",
+            CommandQuantity::PositionError | CommandQuantity::Arbitrary => "command",
         }
     }
     /// Suffix of a torque or force; that of the command if the torque constant is unknown.
@@ -93,7 +93,7 @@ impl UnitNames {
         match self.command {
             CommandQuantity::Current => "A",
             CommandQuantity::Voltage => "V",
-            CommandQuantity::Arbitrary => "command",
+            CommandQuantity::PositionError | CommandQuantity::Arbitrary => "command",
         }
     }
     /// Unit of a torque or force in words.
@@ -116,7 +116,7 @@ impl UnitNames {
         match self.command {
             CommandQuantity::Current => "current",
             CommandQuantity::Voltage => "voltage",
-            CommandQuantity::Arbitrary => "command",
+            CommandQuantity::PositionError | CommandQuantity::Arbitrary => "command",
         }
     }
     /// Inertia of a rotary axis or mass of a linear axis, in words.

@@ -67,6 +67,7 @@ fn put(text: &mut String, arm: &ModalArm, campaign: &Campaign) -> fmt::Result {
         "coulomb = {{ forward = \"{forward:?} N*m\", backward = \"{backward:?} N*m\" }}"
     )?;
     dry_terms(text, arm, [forward, backward])?;
+    torque_ripples(text, arm)?;
     if let Some(load) = arm.gravity.filter(|load| load.amplitude_nm() > 0.0) {
         let (torque, phase) = (load.amplitude_nm(), load.phase_rad());
         writeln!(text, "\n[load]\ngravity_torque = \"{torque:?} N*m\"\nphase = \"{phase:?} rad\"")?;
@@ -74,7 +75,7 @@ fn put(text: &mut String, arm: &ModalArm, campaign: &Campaign) -> fmt::Result {
     rig(text, arm, campaign, constant)
 }
 
-/// Friction near rest and one ripple, where a joint can have them: where its friction always brakes.
+/// Further terms of friction, of ripples one, where a joint can have them: where its friction always brakes.
 fn dry_terms(text: &mut String, arm: &ModalArm, [forward, backward]: [f64; 2]) -> fmt::Result {
     let terms = &arm.dry_terms;
     let Ok(sliding) = Coulomb::by_direction(forward, backward) else { return Ok(()) };
@@ -114,7 +115,44 @@ fn dry_terms(text: &mut String, arm: &ModalArm, [forward, backward]: [f64; 2]) -
     } else if !terms.ripples.is_empty() {
         writeln!(text, "# Left out: ripples of friction; a joint here has one.")?;
     }
+    if let Some(root) = terms.root {
+        let size = root.torque_nm_per_root_rad_s;
+        if size >= 0.0 {
+            writeln!(text, "root = {{ friction = \"{size:?} N*m\", velocity = \"1 rad/s\" }}")?;
+        } else {
+            writeln!(text, "# Left out: friction that falls with the square root of speed.")?;
+        }
+    }
+    if let Some(term) = terms.with_load.filter(|term| term.load.amplitude_nm() > 0.0) {
+        let (coefficient, load) = (term.coefficient, term.load);
+        if coefficient >= 0.0 {
+            writeln!(
+                text,
+                "with_load = {{ coefficient = {coefficient:?}, gravity_torque = \"{:?} N*m\", phase = \"{:?} rad\" }}",
+                load.amplitude_nm(),
+                load.phase_rad()
+            )?;
+        } else {
+            writeln!(text, "# Left out: friction that falls with the torque of gravity.")?;
+        }
+    }
     Ok(())
+}
+
+/// Torque ripples of the motor.
+fn torque_ripples(text: &mut String, arm: &ModalArm) -> fmt::Result {
+    if arm.torque_ripples.is_empty() {
+        return Ok(());
+    }
+    writeln!(text, "torque_ripples = [")?;
+    for ripple in &arm.torque_ripples {
+        let (torque, per_turn, phase) = (ripple.amplitude_nm(), ripple.per_rad, ripple.phase_rad());
+        writeln!(
+            text,
+            "  {{ torque = \"{torque:?} N*m\", per_turn = {per_turn:?}, phase = \"{phase:?} rad\" }},"
+        )?;
+    }
+    writeln!(text, "]")
 }
 
 /// The beam by its modes. Where the tips do not show all of them, the points are the oscillators themselves.
@@ -187,9 +225,10 @@ mod tests {
     use std::path::Path;
 
     use lissom_core::drive::Falloff;
-    use lissom_core::identify::ArmSource;
+    use lissom_core::identify::{ArmSource, LagShape};
+    use lissom_core::load::{GravityLoad, TorqueRipple};
     use lissom_core::record::{Channels, Command, Hold, Run, TimeBase};
-    use lissom_core::replay::{DryTerms, NearRest, Ripple};
+    use lissom_core::replay::{DryTerms, NearRest, Ripple, Root, WithLoad};
     use lissom_core::rig::JointFriction;
 
     use super::*;
@@ -211,6 +250,9 @@ mod tests {
         Campaign::new(channels, vec![run]).unwrap()
     }
 
+    const LOAD: GravityLoad = GravityLoad { sine_nm: 1.5, cosine_nm: -0.4 };
+    const COGGING: TorqueRipple = TorqueRipple { per_rad: 12.0, cosine_nm: 0.05, sine_nm: 0.02 };
+
     fn found(near_nm: f64) -> FoundArm {
         let near = NearRest {
             torque_nm: near_nm,
@@ -224,16 +266,28 @@ mod tests {
             viscous_nm_s_per_rad: [0.03, 0.05],
             coulomb_nm: 0.4,
             offset_nm: 0.02,
-            dry_terms: DryTerms { near_rest: Some(near), ripples: vec![ripple] },
+            dry_terms: DryTerms {
+                near_rest: Some(near),
+                ripples: vec![ripple],
+                root: Some(Root { torque_nm_per_root_rad_s: 0.07 }),
+                with_load: Some(WithLoad { coefficient: 0.06, load: LOAD }),
+            },
             modes: Vec::new(),
             shapes: Vec::new(),
             at_points_per_s: Vec::new(),
             gravity: None,
+            torque_ripples: vec![COGGING],
             command_lag_s: 0.0,
             tip_lags_s: Vec::new(),
         };
         let source = ArmSource::Regression;
-        FoundArm { arm, coupling_alone_nm_per_rad: Vec::new(), source, torque_used: None }
+        FoundArm {
+            arm,
+            coupling_alone_nm_per_rad: Vec::new(),
+            source,
+            lag_shape: LagShape::Delay,
+            torque_used: None,
+        }
     }
 
     #[test]
@@ -249,13 +303,24 @@ mod tests {
             let apart = 0.01 * (-(velocity / 0.2_f64).powi(2)).exp();
             let (sine, cosine) = (7.0 * angle).sin_cos();
             let wave = 0.03 * cosine - 0.04 * sine;
+            let root = 0.07 * velocity.sqrt();
+            let load = 0.06 * LOAD.torque_nm(angle).abs();
             let [forward, backward] = [1.0, -1.0].map(|direction| {
-                arm.coulomb_nm + near + wave + direction * (arm.offset_nm + apart)
+                arm.coulomb_nm + near + wave + root + load + direction * (arm.offset_nm + apart)
             });
             let viscous = 0.5 * (0.03 - 0.05) * velocity;
-            assert!((limits.forward() - forward - viscous).abs() < 1e-9, "{velocity} {limits:?}");
-            assert!((limits.backward() - backward + viscous).abs() < 1e-9, "{velocity} {limits:?}");
+            // The root and the load are smoothed.
+            assert!((limits.forward() - forward - viscous).abs() < 1e-5, "{velocity} {limits:?}");
+            assert!((limits.backward() - backward + viscous).abs() < 1e-5, "{velocity} {limits:?}");
         }
+        let [ripple] = rig.scene.torque_ripples[..] else { panic!("{text}") };
+        for angle in [0.0, 0.4, 2.0] {
+            assert!((ripple.torque_nm(angle) - COGGING.torque_nm(angle)).abs() < 1e-15, "{text}");
+        }
+        let terms = (law.terms().root, law.terms().with_load);
+        assert_eq!(terms.0, arm.dry_terms.root);
+        let load = terms.1.unwrap().load;
+        assert!((load.torque_nm(1.0) - LOAD.torque_nm(1.0)).abs() < 1e-14, "{text}");
     }
 
     #[test]

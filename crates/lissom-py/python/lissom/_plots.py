@@ -151,7 +151,7 @@ class ResultPlots:
             size = 2 * max(abs(value) for value in values)
             axes.errorbar(speeds, values, yerr=np.minimum(bars, size), **style)
         most = max((abs(speed) for speed in speeds), default=1.0)
-        law = content["friction"].get("near_rest") or content["friction"].get("ripples")
+        law = content["friction"].get("law")
         for sign, (coulomb, viscous) in lines.items():
             line = np.array([0.0, sign * most])
             label = "Coulomb and viscous friction" + (", without the further terms" if law else "")

@@ -72,12 +72,11 @@ fn parameter(p: &ParameterScore) -> String {
     let Some(e) = p.estimate else { return format!("{head}       refused {:?}", p.warned_by) };
     let mark = if p.silently_wrong() { " SILENTLY WRONG" } else { "" };
     format!(
-        "{head} {:13.6e} {:11.3e} {bound:11.3e} {:+8.3} % {:+10.2} {}{}{mark}",
+        "{head} {:13.6e} {:11.3e} {bound:11.3e} {:+8.3} % {:+10.2} {}{mark}",
         e.value,
         e.std,
         100.0 * p.error().unwrap_or(f64::NAN),
         p.standard_errors().unwrap_or(f64::NAN),
-        if p.from_line { "(least squares) " } else { "" },
         p.warned_by.join(" ")
     )
 }

@@ -135,14 +135,6 @@ impl Real<'_> {
                 Input::Held => false,
             }));
         }
-        for line in [true, false] {
-            let label =
-                if line { "friction from least squares" } else { "friction from the table" };
-            rows.push(self.row(label.to_owned(), |(_, p)| {
-                let friction = [DriveParameter::Coulomb, DriveParameter::Viscous];
-                friction.contains(&p.parameter) && p.from_line == line
-            }));
-        }
         table(&HEADER, &rows)
     }
 }
@@ -334,7 +326,7 @@ fn worst(all: &[Scored<'_>]) -> String {
                 format!("{:+.1}", p.standard_errors().unwrap_or(f64::NAN)),
                 format!("{:+.2} %", 100.0 * p.error().unwrap_or(f64::NAN)),
                 p.bound_share().map_or_else(String::new, |b| format!("{:.3} %", 100.0 * b)),
-                if p.from_line { "least squares".to_owned() } else { method.to_owned() },
+                method.to_owned(),
                 p.warned_by.join(" "),
                 o.cause.map_or_else(String::new, |c| c.to_string()),
                 o.effects.names().join(" "),

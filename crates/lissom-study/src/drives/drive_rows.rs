@@ -15,7 +15,7 @@ const HEAD: &str = "study,seed,index,cause,effects,magnitude,motion,runs,rows,ro
 pub fn drive_rows(plan: &DriveStudyPlan, outcomes: &[Option<DriveOutcome>]) -> String {
     let mut header = HEAD.to_owned();
     for parameter in DriveParameter::ALL {
-        for column in ["_true", "_as_fell", "", "_std", "_bound", "_warned_by", "_from_line"] {
+        for column in ["_true", "_as_fell", "", "_std", "_bound", "_warned_by"] {
             header.extend([",", &parameter.to_string(), column]);
         }
     }
@@ -119,7 +119,7 @@ fn row(plan: &DriveStudyPlan, outcome: &DriveOutcome) -> String {
     cells.join(",")
 }
 
-fn parameter_cells(of: Option<&ParameterScore>) -> [String; 7] {
+fn parameter_cells(of: Option<&ParameterScore>) -> [String; 6] {
     let Some(p) = of else { return Default::default() };
     let cell = |value: Option<f64>| value.map_or_else(String::new, |v| format!("{v:.8e}"));
     [
@@ -129,6 +129,5 @@ fn parameter_cells(of: Option<&ParameterScore>) -> [String; 7] {
         cell(p.estimate.map(|e| e.std)),
         cell(p.bound),
         p.warned_by.join(" "),
-        p.from_line.to_string(),
     ]
 }

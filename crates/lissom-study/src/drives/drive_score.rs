@@ -32,8 +32,6 @@ pub struct ParameterScore {
     pub warned_by: Vec<&'static str>,
     /// The smallest possible standard error; `None` if the motion does not determine the parameter.
     pub bound: Option<f64>,
-    /// Whether it was taken from the least-squares friction and not from the result's table.
-    pub from_line: bool,
 }
 
 impl ParameterScore {
@@ -148,26 +146,16 @@ impl DriveScore {
 
 /// Compares a result with the truth of its campaign.
 ///
-/// Friction is taken from the result's table, unless the friction law has terms besides Coulomb and one viscous
-/// constant. The Coulomb friction of such a law is defined differently: for concave friction as the limit above the
-/// driven speeds, with the root of speed as the value at rest, with ripple as the friction without the ripple. It is
-/// not comparable with a straight line. For this case the result has Coulomb and viscous friction by least squares
-/// (`methods.least_squares`; the command prints them below the table), and these are compared with the same of the true
-/// friction. If the output-error method has ripple as a term, they are not given: then the table is compared with the
-/// least-squares line of the true friction without ripple.
+/// Coulomb and viscous friction of a result are a straight line over the speeds of the logs; they are compared with the
+/// least-squares line of the true friction, without ripple where the result has ripple as a term.
 ///
 /// Inertia is that of all rotating parts. If the result has a mode that was found in the motion of the motor
 /// (`modes-by-the-motor`), its inertia is that of the motor alone, and is compared with that.
 pub fn score_drive(campaign: &DriveCampaign, id: &Identified) -> DriveScore {
     let bound = TorqueBound::of(campaign);
-    let from_line = gives_the_line(id);
-    let ripple = id.friction.ripples.is_empty() || from_line;
+    let ripple = id.friction.law.as_ref().is_none_or(|law| law.ripples.is_empty());
     let [law, fell] =
         [false, true].map(|wander| FrictionLine::of(campaign, LineOf { ripple, wander }));
-    let line = id.least_squares.as_ref().map(|l| &l.estimates.friction);
-    let of_friction = |given: Option<Estimate>, of_line: Option<Estimate>| {
-        if from_line { given.and(of_line) } else { given }
-    };
     let one = |parameter: DriveParameter, [truth, truth_as_fell]: [f64; 2], estimate| {
         let names = |f: &&Finding| {
             f.severity() >= Severity::Warning && f.affects().contains(&parameter.key())
@@ -179,23 +167,19 @@ pub fn score_drive(campaign: &DriveCampaign, id: &Identified) -> DriveScore {
             estimate,
             warned_by: id.findings.iter().filter(names).map(Finding::code).collect(),
             bound: bound.as_ref().and_then(|b| b.std(parameter)),
-            from_line: from_line
-                && matches!(parameter, DriveParameter::Coulomb | DriveParameter::Viscous),
         }
     };
     let friction = &id.friction;
-    let coulomb = of_friction(friction.coulomb, line.and_then(|l| l.coulomb));
-    let viscous = of_friction(friction.viscous, line.and_then(|l| l.viscous));
     let numbers = &campaign.numbers;
     let fixed = |value: f64| [value, value];
     let of_motor = campaign.effects.unseen_mode.filter(|_| !id.beam.modes.is_empty());
     let inertia = numbers.inertia_kg_m2 / (1.0 + of_motor.map_or(0.0, |m| m.inertia_ratio));
     let mut parameters = vec![
-        one(DriveParameter::Coulomb, [law.coulomb_nm, fell.coulomb_nm], coulomb),
+        one(DriveParameter::Coulomb, [law.coulomb_nm, fell.coulomb_nm], friction.coulomb),
         one(
             DriveParameter::Viscous,
             [law.viscous_nm_s_per_rad, fell.viscous_nm_s_per_rad],
-            viscous,
+            friction.viscous,
         ),
         one(DriveParameter::Inertia, fixed(inertia), id.inertia),
     ];
@@ -217,13 +201,6 @@ pub fn score_drive(campaign: &DriveCampaign, id: &Identified) -> DriveScore {
         findings: id.findings.iter().map(found).collect(),
         method: id.method.map(Method::name),
     }
-}
-
-/// Whether the command prints least-squares friction below the table.
-fn gives_the_line(id: &Identified) -> bool {
-    let f = &id.friction;
-    let departs = f.near_rest.is_some() || f.viscous_by_direction.is_some();
-    departs || id.method == Some(Method::FrictionLaw)
 }
 
 /// The difference between findings with the same code.

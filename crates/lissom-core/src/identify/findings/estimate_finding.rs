@@ -137,6 +137,15 @@ pub enum EstimateFinding {
     },
     /// Another parameter came out negative.
     OthersDoubtful,
+    /// Friction falls with speed: the straight line has a negative slope, and its intercept is no friction of the log.
+    FrictionFalls {
+        /// Mean speed of the log \[rad/s or m/s\].
+        speed: f64,
+        /// Friction at that speed.
+        friction: f64,
+        /// Units of both.
+        units: EstimateUnits,
+    },
     /// Inertia and Coulomb friction are both negative.
     CommandSign,
     /// The torque constant is unknown.
@@ -182,6 +191,7 @@ fn about(ratio: f64) -> String {
 }
 
 impl fmt::Display for EstimateFinding {
+    #[expect(clippy::too_many_lines, reason = "one sentence for each finding")]
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             Self::NotSeparable { parameter } => write!(
@@ -216,6 +226,15 @@ impl fmt::Display for EstimateFinding {
             Self::OthersDoubtful => f.write_str(
                 "a parameter that must be positive is negative: the other estimates come from the same equation and may be \
                  wrong as well",
+            ),
+            Self::FrictionFalls { speed, friction, units } => write!(
+                f,
+                "friction falls with speed over the speeds of these runs: the line that it is compared by would have a negative \
+                 slope, and its Coulomb friction is that of no speed. At the mean speed of {} {}/s friction is {} {}",
+                significant(*speed, 3),
+                units.angle(),
+                significant(*friction, 3),
+                units.torque()
             ),
             Self::CommandSign => f.write_str(
                 "inertia and Coulomb friction are both negative: the command and the motor's angle have opposite signs, and \
@@ -300,6 +319,7 @@ impl Describe for EstimateFinding {
             | Self::NegativeEstimate { .. }
             | Self::FrictionWithLoad { .. }
             | Self::ArmNotGiven { .. }
+            | Self::FrictionFalls { .. }
             | Self::CommandSign => Severity::Refusal,
             Self::PerUnitOfCommand
             | Self::CommandNotMeasured
@@ -319,7 +339,9 @@ impl Describe for EstimateFinding {
             Self::CommandSign | Self::PerUnitOfCommand => {
                 vec![key::COULOMB, key::VISCOUS, key::INERTIA]
             }
-            Self::CommandNotMeasured => vec![key::COULOMB, key::VISCOUS],
+            Self::FrictionFalls { .. } | Self::CommandNotMeasured => {
+                vec![key::COULOMB, key::VISCOUS]
+            }
             Self::FrictionVisible { .. } => vec![key::COULOMB, key::RAW_RESPONSE],
             Self::Offset { .. } => vec![key::OFFSET],
             Self::MethodsDisagree { method: OtherMethod::ThirdHarmonic, .. } => {
@@ -341,6 +363,9 @@ impl Describe for EstimateFinding {
             Self::FrictionWithLoad { .. } => "add a run that turns the other way",
             Self::OthersDoubtful => {
                 "check signs and units, and what else acts on the axis: the equation does not describe these runs"
+            }
+            Self::FrictionFalls { .. } => {
+                "use the friction curve at the speeds driven; runs at higher speeds show whether friction grows there"
             }
             Self::CommandSign => "give the command or the motor a negative scale in the campaign",
             Self::PerUnitOfCommand => "if you know it, give drive.torque_constant in the campaign",

@@ -82,11 +82,6 @@ fn term_in_words(
                 units.viscous()
             )
         }
-        LawTerm::AfterTravel { travel } => format!(
-            "it grows over some travel after a reversal (presliding; the first {} {angle} of each slip phase are not \
-             used)",
-            significant(*travel, DIGITS)
-        ),
         LawTerm::NearRest { speed, .. } => {
             let (way, name) =
                 if amplitude > 0.0 { ("higher", " (Stribeck)") } else { ("lower", "") };
@@ -107,6 +102,15 @@ fn term_in_words(
             let squares = amplitudes.iter().take(2).map(|e| e.value * e.value);
             format!(
                 "it changes over the travel by ±{} {torque} with a period of {} {angle}",
+                significant(squares.sum::<f64>().sqrt(), DIGITS),
+                significant(std::f64::consts::TAU / per_angle, DIGITS + 1)
+            )
+        }
+        LawTerm::TorqueRipple { per_angle } => {
+            let squares = amplitudes.iter().take(2).map(|e| e.value * e.value);
+            format!(
+                "a torque that changes over the travel acts in both directions alike (cogging), ±{} {torque} with a period of {} \
+                 {angle}",
                 significant(squares.sum::<f64>().sqrt(), DIGITS),
                 significant(std::f64::consts::TAU / per_angle, DIGITS + 1)
             )
@@ -175,12 +179,6 @@ impl FrictionLawFinding {
         let Self::FrictionLaw { source, .. } = self;
         matches!(source, LawSource::SlipPhases { replayed_without: false, left_over: Some(_), .. })
     }
-
-    fn grows_after_reversals(&self) -> bool {
-        let Self::FrictionLaw { terms, source, .. } = self;
-        matches!(source, LawSource::SlipPhases { replayed_without: false, .. })
-            && terms.iter().any(|(term, _)| matches!(term, LawTerm::AfterTravel { .. }))
-    }
 }
 
 impl Describe for FrictionLawFinding {
@@ -189,15 +187,11 @@ impl Describe for FrictionLawFinding {
     }
 
     fn severity(&self) -> Severity {
-        // The estimates are those of the law. It does not contain the effect of presliding on inertia.
-        let doubtful = self.grows_after_reversals() || self.leaves_much();
-        if doubtful { Severity::Warning } else { Severity::Info }
+        // The estimates are those of the law.
+        if self.leaves_much() { Severity::Warning } else { Severity::Info }
     }
 
     fn affects(&self) -> Vec<&'static str> {
-        if self.grows_after_reversals() {
-            return vec![key::COULOMB, key::VISCOUS, key::INERTIA, key::COUPLING];
-        }
         vec![key::COULOMB, key::VISCOUS]
     }
 
@@ -209,10 +203,6 @@ impl Describe for FrictionLawFinding {
             }
             LawSource::SlipPhases { replayed_without: true, .. } => {
                 "nothing to do: the estimates are those of the output-error method"
-            }
-            LawSource::SlipPhases { .. } if self.grows_after_reversals() => {
-                "Coulomb and viscous friction are valid at speed, not near standstill; inertia and coupling have an error, \
-                 because presliding delays friction when the speed changes: use longer and faster moves to reduce it"
             }
             LawSource::SlipPhases { .. } if self.leaves_much() => {
                 "look for a flexible part, a load or a wrong channel; compare with the line of least squares"

@@ -117,6 +117,22 @@ pub enum LogFinding {
     },
     /// The angle is integrated from the speed.
     SpeedIntegrated,
+    /// The motor was moved from outside while the command was zero; this is left out.
+    Undriven {
+        /// Number of stretches.
+        count: usize,
+        /// Time of the first one, from the first sample \[s\].
+        at_s: f64,
+        /// Time that they last together \[s\].
+        length_s: f64,
+    },
+    /// A speed that stays on the lowest levels of its sensor is rest.
+    SpeedAtRest {
+        /// Distance of the levels \[rad/s or m/s\].
+        quantum: f64,
+        /// Number of readings.
+        count: usize,
+    },
     /// Jumps of one turn are removed from the angles.
     TurnsRemoved {
         /// Number of jumps.
@@ -194,6 +210,8 @@ impl From<&Note> for LogFinding {
                 Self::OtherClock { channel: channel.clone(), clock }
             }
             Note::SpeedIntegrated => Self::SpeedIntegrated,
+            Note::Undriven { count, at_s, length_s } => Self::Undriven { count, at_s, length_s },
+            Note::SpeedAtRest { quantum, count } => Self::SpeedAtRest { quantum, count },
             Note::TurnsRemoved { count } => Self::TurnsRemoved { count },
             Note::RowsWithoutRun { count, share } => Self::RowsWithoutRun { count, share },
             Note::SpikesReplaced { ref channel, count, at_s, value } => {
@@ -207,6 +225,7 @@ impl From<&Note> for LogFinding {
 }
 
 impl fmt::Display for LogFinding {
+    #[expect(clippy::too_many_lines, reason = "one sentence for each finding")]
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             Self::RepeatedRun { first } => {
@@ -257,6 +276,21 @@ impl fmt::Display for LogFinding {
             Self::OtherClock { channel, clock } => other_clock_message(f, channel, clock),
             Self::SpeedIntegrated => f.write_str(
                 "the log has the speed of the motor: the angle is integrated from it, starting at 0",
+            ),
+            Self::Undriven { count, at_s, length_s } => write!(
+                f,
+                "the motor moves faster and faster while the command is exactly zero, in {} from {} s on, {} s together: it is \
+                 moved from outside (by hand, with the amplifier off). This is left out",
+                counted(*count, "stretch", "stretches"),
+                significant(*at_s, 4),
+                significant(*length_s, 3)
+            ),
+            Self::SpeedAtRest { quantum, count } => write!(
+                f,
+                "the levels of the speed are {} rad/s (or m/s) apart, and zero is none of them: {} that stay on the lowest \
+                 level are taken as rest",
+                significant(*quantum, 3),
+                counted(*count, "reading", "readings")
             ),
             Self::TurnsRemoved { count } => write!(
                 f,
@@ -450,6 +484,8 @@ impl Describe for LogFinding {
             | Self::RateChange { .. }
             | Self::OtherClock { .. }
             | Self::SpeedIntegrated
+            | Self::Undriven { .. }
+            | Self::SpeedAtRest { .. }
             | Self::TurnsRemoved { .. }
             | Self::RowsWithoutRun { .. }
             | Self::SpikesReplaced { .. }
@@ -484,6 +520,8 @@ impl Describe for LogFinding {
             | Self::RateChange { .. }
             | Self::OtherClock { .. }
             | Self::SpeedIntegrated
+            | Self::Undriven { .. }
+            | Self::SpeedAtRest { .. }
             | Self::TurnsRemoved { .. }
             | Self::RowsWithoutRun { .. }
             | Self::SpikesReplaced { .. }
@@ -527,6 +565,12 @@ impl Describe for LogFinding {
             }
             Self::SpeedIntegrated => {
                 "nothing to do; a log that also has the angle shows slow motion better"
+            }
+            Self::Undriven { .. } => {
+                "nothing to do; if gravity or a spring moves the joint, say so ([load] gravity = true), and the stretch is used"
+            }
+            Self::SpeedAtRest { .. } => {
+                "nothing to do if the drive codes its speed so; else give the speed's offset in the campaign"
             }
             Self::TurnsRemoved { .. } => "nothing to do",
             Self::RowsWithoutRun { .. } => {

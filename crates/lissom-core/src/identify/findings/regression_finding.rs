@@ -13,8 +13,8 @@ use crate::identify::findings::regression_words::{
 use crate::identify::findings::result_key as key;
 use crate::identify::findings::severity::Severity;
 use crate::identify::findings::units::EstimateUnits;
-use crate::identify::methods::regression::missing::{MissingKind, MissingTerm};
-use crate::identify::methods::regression::{AngleLag, GravityPartner, LagShape};
+use crate::identify::methods::friction_law::{AngleLag, LagShape, MissingKind, MissingTerm};
+use crate::identify::methods::regression::GravityPartner;
 use crate::identify::methods::regression::{HiddenMode, OtherHold};
 
 /// Regression in slip phases: quality of the fit, and effects that the motor's equation does not contain.
@@ -94,21 +94,6 @@ pub enum RegressionFinding {
         /// What the other one would change.
         other: OtherHold,
         /// Units of the estimates.
-        units: EstimateUnits,
-    },
-    /// Viscous friction differs by direction.
-    ViscousByDirection {
-        /// Viscous friction forward.
-        forward: Estimate,
-        /// Viscous friction backward.
-        backward: Estimate,
-        /// Residual torque relative to the torque, with one constant.
-        residual_share_of_one: f64,
-        /// Residual torque relative to the torque, with two constants.
-        residual_share_of_two: f64,
-        /// Offset of friction with two constants.
-        offset: Estimate,
-        /// Units of these.
         units: EstimateUnits,
     },
 }
@@ -221,8 +206,8 @@ impl fmt::Display for RegressionFinding {
             ),
             Self::MissingTerm { term, units } => write!(
                 f,
-                "it looks as if {} ({:.0} standard errors; with this term the residual torque is {:.2} times as large). The \
-                 equation has no such term: {}",
+                "it looks as if {} (blocks that were left out are predicted better by {:.0} standard errors; with this term the \
+                 residual torque is {:.2} times as large). The model has no such term: {}",
                 looks_like(term, *units),
                 term.standard_errors,
                 term.residual_ratio,
@@ -246,25 +231,6 @@ impl fmt::Display for RegressionFinding {
                 significant(100.0 * by, 2)
             ),
             Self::AngleLag { lag } => lags(f, lag),
-            Self::ViscousByDirection {
-                forward,
-                backward,
-                residual_share_of_one,
-                residual_share_of_two,
-                offset,
-                units,
-            } => write!(
-                f,
-                "viscous friction differs by direction: {} {viscous} forward, {} {viscous} backward. With two \
-                 constants the residual torque drops from {:.1} % to {:.1} %, and the offset of friction is {} {}",
-                with_error(*forward),
-                with_error(*backward),
-                100.0 * residual_share_of_one,
-                100.0 * residual_share_of_two,
-                with_error(*offset),
-                units.torque(),
-                viscous = units.viscous()
-            ),
         }
     }
 }
@@ -288,8 +254,7 @@ impl Describe for RegressionFinding {
             | Self::OneSine
             | Self::MissingTerm { .. }
             | Self::AngleLag { .. }
-            | Self::HoldAssumed { .. }
-            | Self::ViscousByDirection { .. } => Severity::Warning,
+            | Self::HoldAssumed { .. } => Severity::Warning,
         }
     }
 
@@ -331,7 +296,6 @@ impl Describe for RegressionFinding {
             Self::OneSine => {
                 vec![key::COULOMB, key::VISCOUS, key::INERTIA, key::COUPLING, key::MODES]
             }
-            Self::ViscousByDirection { .. } => vec![key::VISCOUS, key::OFFSET],
         }
     }
 
@@ -363,18 +327,10 @@ impl Describe for RegressionFinding {
             }
             Self::OneSine => "use the output-error method, or add a run at another frequency",
             Self::MissingTerm { term, .. } => match term.kind {
-                MissingKind::Delay => {
-                    "check `hold` of the command (a value that the controller sets is \"sampled\", one of a sensor \"measured\": \
-                     they differ by half a sample), or log the current where it is measured"
-                }
                 MissingKind::Gravity => "add [load] gravity = true to the campaign",
                 MissingKind::Position => {
                     "look for gravity, a spring, cogging, a wrong scale of a tip, or a position loop between the logged command \
                      and the motor"
-                }
-                MissingKind::Stribeck => {
-                    "the cause may be Stribeck friction or presliding, which one constant and one slope do not describe: use \
-                     the estimates at speed, not near standstill"
                 }
                 MissingKind::BeamDamping => {
                     "use the output-error method: it identifies damping within the beam"
@@ -382,6 +338,12 @@ impl Describe for RegressionFinding {
                 MissingKind::CommandBySign => {
                     "the cause may be an amplifier that is stronger in one direction, or a current sensor with two gains: log \
                      the current itself, and calibrate it in both directions"
+                }
+                MissingKind::WithTorque => {
+                    "a gear's friction may grow with the torque that it carries: compare results only at similar loads"
+                }
+                MissingKind::OverTravel => {
+                    "the estimates are means over the travel: identify parts of it separately, or look for a bent or worn part"
                 }
                 MissingKind::CoulombDrift => {
                     "the joint may have warmed up, worn or been lubricated: warm it up first, or identify the runs separately"
@@ -411,10 +373,6 @@ impl Describe for RegressionFinding {
             Self::HoldAssumed { .. } => {
                 "say how the command was logged: hold = \"sampled\" for a value that the controller sets and holds, hold = \
                  \"measured\" for that of a sensor"
-            }
-            Self::ViscousByDirection { .. } => {
-                "look for a brush, a screw or a cable as the cause; the single value given is the mean of both, and the \
-                 offset depends on which law is chosen"
             }
         }
     }

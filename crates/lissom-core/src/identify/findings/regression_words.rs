@@ -1,10 +1,10 @@
 //! Findings of the regression in words: missing terms, a mode, an assumed hold, and the estimates that they move.
 
-use crate::identify::findings::number_text::{later, significant};
+use crate::identify::findings::number_text::significant;
 use crate::identify::findings::result_key as key;
 use crate::identify::findings::units::EstimateUnits;
-use crate::identify::methods::regression::missing::{MissingKind, MissingTerm};
-use crate::identify::methods::regression::{HiddenMode, Moved, OtherHold};
+use crate::identify::methods::friction_law::{MissingKind, MissingTerm, Moved};
+use crate::identify::methods::regression::{HiddenMode, OtherHold};
 use crate::record::Hold;
 
 /// Digits of a coefficient whose standard error is not given.
@@ -17,11 +17,6 @@ pub(super) fn looks_like(term: &MissingTerm, units: EstimateUnits) -> String {
     let size = significant(term.value.abs(), DIGITS);
     let grows = if term.value < 0.0 { "falls" } else { "grows" };
     match term.kind {
-        MissingKind::Delay => format!(
-            "the command acts {} ms {} than it is logged",
-            significant(1e3 * term.value.abs(), DIGITS),
-            later(term.value)
-        ),
         MissingKind::Gravity => format!(
             "the command depends on the angle like gravity, with an amplitude of {size} {}",
             units.torque()
@@ -32,11 +27,6 @@ pub(super) fn looks_like(term: &MissingTerm, units: EstimateUnits) -> String {
                 units.stiffness()
             )
         }
-        MissingKind::Stribeck => format!(
-            "friction near zero speed is {size} {} {} than Coulomb and viscous friction",
-            units.torque(),
-            if term.value < 0.0 { "lower" } else { "higher" }
-        ),
         MissingKind::BeamDamping => format!(
             "the beam has internal damping of {} ms times its stiffness",
             significant(1e3 * term.value, DIGITS)
@@ -46,6 +36,12 @@ pub(super) fn looks_like(term: &MissingTerm, units: EstimateUnits) -> String {
             200.0 * term.value.abs(),
             if term.value > 0.0 { "more" } else { "less" }
         ),
+        MissingKind::WithTorque => {
+            format!("friction {grows} with the torque of the motor, by {size} times that torque")
+        }
+        MissingKind::OverTravel => {
+            format!("friction varies over the travel, by up to {size} {}", units.torque())
+        }
         MissingKind::CoulombDrift => format!(
             "Coulomb friction {grows} by {size} {} from the beginning of the campaign to its end",
             units.torque()

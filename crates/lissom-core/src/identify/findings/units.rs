@@ -30,7 +30,7 @@ impl EstimateUnits {
         match self.command {
             CommandQuantity::Current => "A",
             CommandQuantity::Voltage => "V",
-            CommandQuantity::Arbitrary => "units of command",
+            CommandQuantity::PositionError | CommandQuantity::Arbitrary => "units of command",
         }
     }
 

@@ -23,19 +23,17 @@ pub(super) struct Row {
 /// | --- | --- |
 /// | output error | its arm describes the runs to a few times the sensors' noise |
 /// | frequency response | no tip shows an angle and the response has modes: slip phases count the beam's inertia as the motor's |
-/// | friction law | the logs reject Coulomb friction with one viscous coefficient |
-/// | regression by direction | viscous friction differs by direction, and no law was found |
+/// | friction law | terms beyond Coulomb friction and one viscous coefficient predict better |
 /// | regression | Coulomb friction comes out of it |
 /// | least squares | there is no regression, or it leaves more of the torque than they do |
 /// | frequency response | there is no regression |
 /// | third harmonic | pairs of sines at ω0 and 3·ω0 |
 /// | constant velocity | stretches at constant velocity |
 /// | regression | else: what it gives without Coulomb friction |
-pub(super) const DRIVE: [Row; 10] = [
+pub(super) const DRIVE: [Row; 9] = [
     Row { method: Method::OutputError, solution: by_output_error },
     Row { method: Method::FrequencyResponse, solution: by_response_with_modes },
     Row { method: Method::FrictionLaw, solution: by_friction_law },
-    Row { method: Method::RegressionByDirection, solution: by_direction },
     Row { method: Method::Regression, solution: by_regression_with_friction },
     Row { method: Method::LeastSquares, solution: by_least_squares },
     Row { method: Method::FrequencyResponse, solution: by_response },
@@ -50,7 +48,7 @@ pub(super) fn choose(evidence: &Evidence<'_>) -> (Option<Method>, DriveEstimates
     DRIVE.iter().find_map(offered).unwrap_or_default()
 }
 
-/// The best solution of slip phases alone: law, by direction, one viscous coefficient.
+/// The best solution of slip phases alone: that with a law, or with one viscous coefficient.
 pub(crate) fn slip_phase_solution(
     regression: Option<&MotorRegression>,
     law: Option<&FrictionLaw>,
@@ -58,9 +56,6 @@ pub(crate) fn slip_phase_solution(
     let regression = regression?;
     if let Some(law) = law.filter(|law| law.chosen.departs()) {
         return Some((Method::FrictionLaw, law.chosen.estimates()));
-    }
-    if let Some(split) = &regression.viscous_by_direction {
-        return Some((Method::RegressionByDirection, split.estimates.clone()));
     }
     Some((Method::Regression, regression.estimates()))
 }
@@ -73,16 +68,14 @@ pub(crate) fn slip_phase_terms<'a>(
 ) -> Option<&'a Terms> {
     match method {
         Method::Regression => regression.map(|r| &r.terms),
-        Method::RegressionByDirection => {
-            regression.and_then(|r| r.viscous_by_direction.as_ref()).map(|split| &split.terms)
-        }
         Method::FrictionLaw => law.map(|law| &law.chosen.joint),
         _ => None,
     }
 }
 
 fn by_output_error(evidence: &Evidence<'_>) -> Option<DriveEstimates> {
-    Some(evidence.replay()?.estimates(&evidence.campaign.channels))
+    let speeds = evidence.methods.friction_law.as_ref().map(|law| &law.speeds);
+    Some(evidence.replay()?.estimates_at(&evidence.campaign.channels, speeds))
 }
 
 fn by_response_with_modes(evidence: &Evidence<'_>) -> Option<DriveEstimates> {
@@ -111,15 +104,15 @@ fn of_response(evidence: &Evidence<'_>, model: &MotorFit) -> DriveEstimates {
             third.coulomb_command.scaled(evidence.campaign.channels.command.torque_per_unit());
         Some(Friction { coulomb: Some(coulomb), ..Friction::default() })
     });
-    of_model(evidence, model, corrected_for.unwrap_or_default())
+    of_model(evidence, model, &corrected_for.unwrap_or_default())
 }
 
-fn of_model(evidence: &Evidence<'_>, model: &MotorFit, friction: Friction) -> DriveEstimates {
+fn of_model(evidence: &Evidence<'_>, model: &MotorFit, friction: &Friction) -> DriveEstimates {
     let back_emf = evidence.campaign.channels.command.back_emf_viscous;
     let viscous = Estimate { value: model.viscous.value - back_emf, std: model.viscous.std };
     let coupling = (!model.coupling.is_empty()).then(|| model.total_coupling());
     DriveEstimates {
-        friction: Friction { viscous: Some(viscous), viscous_by_direction: None, ..friction },
+        friction: Friction { viscous: Some(viscous), law: None, ..friction.clone() },
         inertia: Some(model.inertia),
         coupling: coupling.filter(|_| !evidence.campaign.channels.tips.is_empty()),
         coupling_by_tip: Vec::new(),
@@ -129,10 +122,6 @@ fn of_model(evidence: &Evidence<'_>, model: &MotorFit, friction: Friction) -> Dr
 
 fn by_friction_law(evidence: &Evidence<'_>) -> Option<DriveEstimates> {
     of_slip_phases(evidence, Method::FrictionLaw)
-}
-
-fn by_direction(evidence: &Evidence<'_>) -> Option<DriveEstimates> {
-    of_slip_phases(evidence, Method::RegressionByDirection).filter(|_| !is_beaten(evidence))
 }
 
 fn by_regression_with_friction(evidence: &Evidence<'_>) -> Option<DriveEstimates> {
@@ -180,7 +169,7 @@ fn by_third_harmonic(evidence: &Evidence<'_>) -> Option<DriveEstimates> {
         third.coulomb_command.scaled(evidence.campaign.channels.command.torque_per_unit());
     let friction = Friction { coulomb: Some(coulomb), ..Friction::default() };
     Some(match &evidence.methods.third_harmonic_model {
-        Some(model) => of_model(evidence, model, friction),
+        Some(model) => of_model(evidence, model, &friction),
         None => DriveEstimates { friction, ..DriveEstimates::default() },
     })
 }
@@ -261,7 +250,7 @@ mod tests {
 
     fn nothing() -> Methods {
         Methods {
-            regression_missing: None,
+            missing: Vec::new(),
             third_harmonic: None,
             third_harmonic_model: None,
             regression: None,

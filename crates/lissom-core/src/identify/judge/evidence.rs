@@ -3,10 +3,10 @@
 use crate::identify::drive_estimates::{DriveEstimates, Method};
 use crate::identify::identified::BeamEstimates;
 use crate::identify::methods::constant_velocity::ConstantVelocity;
-use crate::identify::methods::friction_law::FrictionLaw;
+use crate::identify::methods::friction_law::{FrictionLaw, MissingTerm};
 use crate::identify::methods::least_squares::LeastSquares;
 use crate::identify::methods::output_error::OutputError;
-use crate::identify::methods::regression::{BeamRegression, MissingTerm, MotorRegression};
+use crate::identify::methods::regression::{BeamRegression, MotorRegression};
 use crate::identify::methods::third_harmonic::ThirdHarmonic;
 use crate::identify::prepare::prepared::Prepared;
 use crate::identify::prepare::run_analysis::RunAnalysis;
@@ -23,8 +23,8 @@ pub(crate) struct Methods {
     pub(crate) regression: Option<MotorRegression>,
     /// Share of the torque that the regression leaves, also where it is refused.
     pub(crate) regression_residual: Option<f64>,
-    /// What its equation lacks, also where it is refused.
-    pub(crate) regression_missing: Option<MissingTerm>,
+    /// Effects that the logs show and the model of the torque does not contain, also where the regression is refused.
+    pub(crate) missing: Vec<MissingTerm>,
     pub(crate) least_squares: Option<LeastSquares>,
     pub(crate) friction_law: Option<FrictionLaw>,
     pub(crate) constant_velocity: Option<ConstantVelocity>,

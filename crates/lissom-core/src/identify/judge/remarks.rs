@@ -1,6 +1,7 @@
 //! Findings about the command, friction, models and methods, for the estimates that were chosen.
 
 use crate::identify::drive_estimates::Method;
+use crate::identify::estimate::Estimate;
 use crate::identify::findings::{
     BeamFinding, EstimateFinding, EstimateUnits, Finding, FrictionSign, OtherMethod,
     ResponseFinding,
@@ -43,6 +44,12 @@ fn command(evidence: &Evidence<'_>, findings: &mut Vec<Finding>) {
     }
 }
 
+/// The jump of the torque at a reversal, without what terms that may be there would change of Coulomb friction.
+fn torque_jump(evidence: &Evidence<'_>) -> Option<Estimate> {
+    let law = evidence.methods.friction_law.as_ref().and_then(|law| law.chosen.projected[0]);
+    law.or_else(|| evidence.methods.regression.as_ref()?.coulomb)
+}
+
 fn friction(evidence: &Evidence<'_>, chosen: &Chosen, findings: &mut Vec<Finding>) {
     let mut shown = None;
     for run in evidence.runs {
@@ -60,7 +67,7 @@ fn friction(evidence: &Evidence<'_>, chosen: &Chosen, findings: &mut Vec<Finding
         }
     }
     if shown.is_none()
-        && let Some(c) = evidence.methods.regression.as_ref().and_then(|r| r.coulomb)
+        && let Some(c) = torque_jump(evidence)
         && c.ci95()[0] > 0.0
     {
         shown = Some(FrictionSign::TorqueJump { standard_errors: c.value / c.std });

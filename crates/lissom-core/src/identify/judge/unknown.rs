@@ -11,6 +11,8 @@ pub(super) fn refuse_the_unknown(evidence: &Evidence<'_>, chosen: &mut Chosen) -
     let regression = evidence.methods.regression.is_some();
     let Chosen { drive, beam, .. } = chosen;
     let units = EstimateUnits::new(&evidence.campaign.channels);
+    let slope = drive.friction.viscous;
+    let falls = slope.is_some_and(|viscous| viscous.is_negative());
     // The logs do not separate Coulomb friction: they show it in one direction at most, and then as one number
     // with a constant load.
     let one_direction = drive.friction.coulomb.is_none();
@@ -46,10 +48,18 @@ pub(super) fn refuse_the_unknown(evidence: &Evidence<'_>, chosen: &mut Chosen) -
     if findings.iter().any(|f| matches!(f, EstimateFinding::NegativeEstimate { .. })) {
         findings.push(EstimateFinding::OthersDoubtful);
     }
-    let friction = &mut drive.friction;
-    if friction.viscous.is_none() {
-        friction.viscous_by_direction = None;
+    // Coulomb friction is the intercept of the slope. What the log shows is a curve that falls with speed.
+    if falls {
+        drive.inertia = drive.inertia.filter(|_| drive.friction.law.is_some());
+        let speed = evidence.methods.friction_law.as_ref().map(|law| law.speeds.mean());
+        let line = drive.friction.coulomb.take().zip(slope).zip(speed);
+        findings.extend(line.map(|((coulomb, slope), speed)| EstimateFinding::FrictionFalls {
+            speed,
+            friction: coulomb.value + slope.value * speed,
+            units,
+        }));
     }
+    let friction = &mut drive.friction;
     if regression && friction.coulomb.is_some() && friction.offset.is_none() {
         findings.push(EstimateFinding::NotSeparable { parameter: JudgedParameter::Offset });
     }

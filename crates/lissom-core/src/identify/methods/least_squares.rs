@@ -87,7 +87,7 @@ pub fn least_squares(prepared: &Prepared<'_>, window_s: Option<f64>) -> Option<L
     let found = scan(sample_s, given, &counts, |length| solve(&line.clusters(length), &terms))?;
     let window_s = found.candidates[found.chosen].window_s;
     let solution = &found.solution;
-    let fitted = Fitted { solution, change: &found.change, columns: &columns, difference: None };
+    let fitted = Fitted { solution, change: &found.change, columns: &columns };
     let mut products = [1.0, -1.0].map(|sign| Cluster::new(0, sign, columns.count() + 2));
     for cluster in line.clusters(window_s) {
         products[usize::from(cluster.sign < 0.0)].merge(&cluster);
@@ -106,8 +106,7 @@ pub fn least_squares(prepared: &Prepared<'_>, window_s: Option<f64>) -> Option<L
 }
 
 impl LeastSquares {
-    /// Relative residual of the windowed torque with other estimates of the same equation, with viscous friction by
-    /// direction if they have it. `None` if one of the estimates is missing.
+    /// Relative residual of the windowed torque with other estimates of the same equation. `None` if one of the estimates is missing.
     pub fn left_by(&self, other: &DriveEstimates) -> Option<f64> {
         let friction = &other.friction;
         let (coulomb, offset) = (friction.coulomb?.value, friction.offset?.value);
@@ -120,12 +119,7 @@ impl LeastSquares {
         }
         let (mut left, mut power) = (0.0, 0.0);
         for cluster in &self.products {
-            let viscous = match friction.viscous_by_direction {
-                Some((forward, _)) if cluster.sign > 0.0 => forward,
-                Some((_, backward)) => backward,
-                None => friction.viscous?,
-            };
-            let mut q = vec![inertia, viscous.value + self.back_emf_viscous, offset];
+            let mut q = vec![inertia, friction.viscous?.value + self.back_emf_viscous, offset];
             q.extend(&beside);
             q.extend([coulomb, -1.0]);
             let last = q.len() - 1;

@@ -41,11 +41,9 @@ pub(crate) fn rigid_equation(
     }
     let units = EstimateUnits::new(&prepared.campaign().channels);
     let finding = BeamFinding::RigidEquation { coupling, units, residual_shares };
-    let law = if found.lag.is_none() { friction_law(&rigid, &found) } else { None };
-    Some(RigidEquation {
-        law,
-        line: least_squares(&rigid, Some(found.window_s)),
-        regression: found,
-        finding: Finding::new(finding),
-    })
+    let law = friction_law(&rigid, &found);
+    let line = least_squares(&rigid, Some(found.window_s));
+    let moves = law.as_ref().map_or(&[][..], |(law, _)| &law.moves);
+    let regression = found.widened(moves);
+    Some(RigidEquation { regression, law, line, finding: Finding::new(finding) })
 }

@@ -17,19 +17,17 @@ use crate::replay::ModalArm;
 /// in `shown`, and the motor's without friction, which `corrected` makes; then the mode that slip phases show without a tip.
 pub(crate) fn starting_arms(
     usable: &Campaign,
-    motor: &MotorRegression,
+    (drive, motor, lag_s): (&DriveEstimates, &MotorRegression, f64),
     beam: Option<&BeamRegression>,
     tips: Option<&BeamFit>,
     shown: &[ResponsePoint],
     corrected: impl Fn() -> Vec<ResponsePoint>,
 ) -> Vec<ModalArm> {
-    let drive = motor.estimates();
-    let mut arms = arms(usable, &drive, beam, tips, shown, corrected);
-    arms.extend(motor.mode.and_then(|mode| flexible(usable, &drive, mode)));
-    // A search that starts without a delay may miss one of several samples.
-    let lag_s = motor.delay_lag().map_or(0.0, |lag| lag.time_s);
+    let mut arms = arms(usable, drive, beam, tips, shown, corrected);
+    arms.extend(motor.mode.and_then(|mode| flexible(usable, drive, mode)));
     // With less viscous friction than none a replay runs away.
     for arm in &mut arms {
+        // A search that starts without a delay may miss one of several samples.
         arm.command_lag_s = lag_s;
         arm.viscous_nm_s_per_rad.iter_mut().for_each(|v| *v = v.max(0.0));
     }

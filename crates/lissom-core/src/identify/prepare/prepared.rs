@@ -13,11 +13,13 @@ use crate::identify::prepare::tip_zero::without_tip_zeros;
 use crate::record::extent::range;
 use crate::record::{Campaign, Run, Tip};
 
+/// Accelerations are taken over this part of the shortest run.
+const ACCELERATIONS_IN_RUN: f64 = 100.0;
+
 /// A campaign prepared once for all methods.
 ///
 /// Runs with a dead channel and repeated runs are left out. A tip that is dead in all runs counts as a tip that
-/// measures no angle. Runs at constant velocity are used only if there are no others: their speeds may be outside the
-/// working range of the drive, where one viscous constant need not hold.
+/// measures no angle. Runs at constant velocity are used only if they accelerate more than all others.
 #[derive(Debug, Clone)]
 pub struct Prepared<'a> {
     campaign: &'a Campaign,
@@ -54,7 +56,7 @@ impl<'a> Prepared<'a> {
         findings.extend(dead_tips(campaign, &dead));
         findings.extend(command_follows_motor(campaign, &runs));
         one_jitter_for_each_log(&mut findings);
-        let kept = kept(&runs);
+        let kept = kept(campaign, &runs);
         let mut used = used_runs(campaign, &kept, &dead);
         if let Some((straight, found)) = without_tip_zeros(&used) {
             used = Cow::Owned(straight);
@@ -179,9 +181,23 @@ fn used_runs<'a>(campaign: &'a Campaign, kept: &[usize], dead: &[bool]) -> Cow<'
     Cow::Owned(Campaign { channels, runs, gravity, mgl_nm, hold_assumed })
 }
 
-/// Runs that the regressions and the output error may use.
-fn kept(runs: &[RunAnalysis]) -> Vec<usize> {
-    let others = runs.iter().any(|r| r.usable && !r.is_constant_velocity());
-    let kept = |a: &RunAnalysis| a.usable && !(others && a.is_constant_velocity());
-    (0..runs.len()).filter(|&i| kept(&runs[i])).collect()
+/// Runs that the regressions and the output error may use: those at constant velocity only if they accelerate more than all
+/// others, as steps do. Their speeds may be outside the working range, where one viscous constant need not hold.
+fn kept(campaign: &Campaign, runs: &[RunAnalysis]) -> Vec<usize> {
+    let usable: Vec<usize> = (0..runs.len()).filter(|&i| runs[i].usable).collect();
+    let lasts_s = |run: &Run| run.len() as f64 * run.sample_time_s();
+    let all_s = usable.iter().map(|&i| lasts_s(&campaign.runs[i]));
+    let over_s = all_s.fold(f64::INFINITY, f64::min) / ACCELERATIONS_IN_RUN;
+    let acceleration = |i: &usize| largest_acceleration(&campaign.runs[*i], over_s);
+    let others = usable.iter().filter(|&&i| !runs[i].is_constant_velocity());
+    let most = others.map(acceleration).fold(0.0, f64::max);
+    let used = |i: &usize| !runs[*i].is_constant_velocity() || acceleration(i) > most;
+    usable.into_iter().filter(used).collect()
+}
+
+/// Largest acceleration of the motor, by angles so much time apart.
+fn largest_acceleration(run: &Run, over_s: f64) -> f64 {
+    let reach = ((over_s / run.sample_time_s()) as usize).max(1);
+    let bend = run.motor().windows(2 * reach + 1).map(|w| w[2 * reach] - 2.0 * w[reach] + w[0]);
+    bend.fold(0.0, |most: f64, b| most.max(b.abs())) / (reach as f64 * run.sample_time_s()).powi(2)
 }

@@ -4,6 +4,7 @@ use nalgebra::DMatrix;
 
 use crate::identify::drive_estimates::DriveEstimates;
 use crate::identify::estimate::Estimate;
+use crate::identify::methods::friction_law::FrictionLaw;
 use crate::identify::methods::output_error::OutputError;
 use crate::identify::methods::regression::{BeamRegression, MotorRegression, Terms, coupled_tips};
 use crate::identify::responses::correct::Response;
@@ -20,11 +21,19 @@ use crate::record::{Campaign, Tip};
 pub(crate) fn estimates_model(
     campaign: &Campaign,
     motor: Option<(&MotorRegression, &DriveEstimates, &Terms)>,
+    law: Option<&FrictionLaw>,
     beam: Option<&BeamRegression>,
 ) -> Option<(MotorFit, Option<BeamFit>)> {
-    let (regression, drive, terms) =
-        motor.filter(|(m, ..)| m.relative_residual < MODEL_EXPLAINED && m.mode.is_none())?;
-    let (inertia, viscous) = (drive.inertia?, drive.friction.viscous?);
+    let (regression, drive, terms) = motor?;
+    let left = law.map_or(regression.relative_residual, |law| law.relative_residual[1]);
+    if left >= MODEL_EXPLAINED || regression.mode.is_some() {
+        return None;
+    }
+    let lag = law.and_then(|law| law.lag);
+    // Of a law the slope that is there at any speed: its other terms are no part of a linear model.
+    let friction = &drive.friction;
+    let viscous = friction.law.as_ref().map_or(friction.viscous, |law| law.viscous)?;
+    let inertia = drive.inertia?;
     let through = match (campaign.channels.tips.len(), beam) {
         (0, _) => None,
         (1, Some(beam)) if beam.relative_residual[0] < MODEL_EXPLAINED => {
@@ -36,8 +45,9 @@ pub(crate) fn estimates_model(
     let drive: Vec<Estimate> = [inertia, viscous].into_iter().chain(coupling).collect();
     let correlation = terms.drive_correlation();
     let model = MotorFit::of_estimates(&drive, &correlation, mode, &campaign.channels.command)?;
-    let model = match regression.lag_s() {
-        Some(lag_s) => model.with_delay(lag_s),
+    let model = match lag {
+        // Of a filter the delay that it has at low frequencies.
+        Some(lag) => model.with_delay(Estimate { value: lag.time_s, std: lag.std_s }),
         None => model,
     };
     (inertia.value > 0.0).then(|| (model, mode.map(BeamFit::of_mode)))

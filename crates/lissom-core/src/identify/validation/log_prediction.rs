@@ -30,6 +30,7 @@ pub fn predict_logs(
     campaign: &Campaign,
 ) -> Result<LogPrediction, ValidationError> {
     check(found, campaign)?;
+    let (found, campaign) = &found.in_time(campaign);
     let arm = found.for_torque();
     let window_s = found.torque_used.map(|used| used.window_s);
     let torque = torque(arm, campaign, &zeros(arm, campaign), window_s);

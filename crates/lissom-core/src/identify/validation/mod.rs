@@ -113,6 +113,7 @@ pub fn validate(
     options: &ValidationOptions,
 ) -> Result<Validation, ValidationError> {
     check(found, campaign)?;
+    let (found, campaign) = &found.in_time(campaign);
     let all = predicted(found, campaign, None);
     // The window of the logs used, so that both estimates compare.
     let window_s = options.window_s.or(found.torque_used.map(|used| used.window_s));

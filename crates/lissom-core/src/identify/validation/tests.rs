@@ -1,11 +1,17 @@
 use super::*;
+use crate::arm::Arm;
+use crate::beam::Beam;
+use crate::drive::{Coulomb, DryFriction, Motor};
 use crate::identify::findings::Severity;
 use crate::identify::found_arm::{ArmSource, TorqueUsed};
+use crate::identify::methods::friction_law::LagShape;
 use crate::identify::validation::thresholds::GOOD_PREDICTION;
+use crate::load::{GravityLoad, TorqueRipple};
 use crate::record::{
     Axis, Channels, Command, CommandQuantity, Hold, Run, TimeBase, Tip, TipQuantity,
 };
-use crate::replay::{DryTerms, ModalArm, Oscillator, Window};
+use crate::replay::{DryTerms, ModalArm, Oscillator, Root, Window, WithLoad};
+use crate::rig::Hybrid;
 
 /// Sample time of the logs \[s\].
 const T: f64 = 0.002;
@@ -23,6 +29,7 @@ fn rigid() -> ModalArm {
         at_points_per_s: Vec::new(),
         dry_terms: DryTerms::default(),
         gravity: None,
+        torque_ripples: Vec::new(),
         command_lag_s: 0.0,
         tip_lags_s: Vec::new(),
     }
@@ -31,6 +38,7 @@ fn rigid() -> ModalArm {
 fn found(arm: ModalArm) -> FoundArm {
     let torque_used = Some(TorqueUsed { relative_error: 0.01, window_s: 0.04 });
     FoundArm {
+        lag_shape: LagShape::Delay,
         arm,
         coupling_alone_nm_per_rad: Vec::new(),
         source: ArmSource::Regression,
@@ -339,4 +347,43 @@ fn a_prediction_for_plots_has_the_values_of_the_validation() {
         // Where nothing is predicted both are NaN.
         assert_eq!(format!("{:?}", shown.runs), format!("{:?}", judged.runs));
     }
+}
+
+/// Friction that grows with speed and load, and torque ripple, are in the predicted torque; without the ripple it is worse.
+#[test]
+fn every_term_of_an_arm_is_in_the_predicted_torque() {
+    let load = GravityLoad { sine_nm: 0.4, cosine_nm: 0.1 };
+    let mut arm = rigid();
+    arm.gravity = Some(load);
+    arm.dry_terms.root = Some(Root { torque_nm_per_root_rad_s: 0.1 });
+    arm.dry_terms.with_load = Some(WithLoad { coefficient: 0.2, load });
+    arm.torque_ripples = vec![TorqueRipple { per_rad: 5.0, cosine_nm: 0.1, sine_nm: 0.05 }];
+    let motor = Motor::new(arm.inertia_kg_m2, 0.05, 1.0).unwrap();
+    let sliding = Coulomb::by_direction(0.32, 0.28).unwrap();
+    let joint = Arm::new(Beam::Rigid, motor, sliding).unwrap();
+    let friction =
+        DryFriction::from(sliding).with_root(0.1).and_then(|law| law.with_load(0.2, load)).unwrap();
+    let mut motion = Hybrid::at_rest(&joint)
+        .with_friction(friction)
+        .with_gravity(load)
+        .with_torque_ripples(&arm.torque_ripples);
+    let torque = |k: u32| {
+        let s = T * f64::from(k);
+        1.6 * (3.0 * s).sin() + 0.8 * (11.0 * s).sin()
+    };
+    let (command, motor): (Vec<f64>, Vec<f64>) = (0..8000)
+        .map(|k| {
+            let angle = (motion.state()[0] / STEP).round() * STEP;
+            motion.advance(torque(k), T);
+            (torque(k) / 0.5, angle)
+        })
+        .unzip();
+    let run = Run::new("two sines", TimeBase::uniform(0.0, T), command, motor, vec![]).unwrap();
+    let campaign = Campaign::new(channels(), vec![run]).unwrap();
+    let error = |arm: &ModalArm| {
+        let options = ValidationOptions::default();
+        validate(&found(arm.clone()), &campaign, &options).unwrap().torque.unwrap().relative_error
+    };
+    let plain = ModalArm { torque_ripples: Vec::new(), ..arm.clone() };
+    assert!(error(&arm) < 0.03 && error(&plain) > 0.06, "{} {}", error(&arm), error(&plain));
 }

@@ -77,7 +77,7 @@ pub struct TorqueTerms {
     pub dry_nm: Vec<f64>,
     /// Torque between motor and beam.
     pub coupling_nm: Vec<f64>,
-    /// Gravity of an unbalanced load.
+    /// Gravity of an unbalanced load, and torque ripples.
     pub gravity_nm: Vec<f64>,
 }
 

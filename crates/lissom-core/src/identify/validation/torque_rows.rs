@@ -75,9 +75,9 @@ impl Coupling {
 /// One place of the window.
 pub(super) struct Row {
     pub(super) time_s: f64,
-    /// Without gravity.
+    /// Without gravity and torque ripples.
     pub(super) logged: f64,
-    /// Without gravity.
+    /// Without gravity and torque ripples.
     pub(super) predicted: f64,
     pub(super) velocity: f64,
     pub(super) counts: bool,
@@ -110,7 +110,7 @@ pub(super) struct RunRows {
 /// What predicts the torque of a campaign's runs.
 pub(super) struct Predictor<'a> {
     arm: &'a ModalArm,
-    /// Without gravity's torque, which is taken off the command.
+    /// Without the torque of gravity and torque ripples, which is taken off the command.
     campaign: Cow<'a, Campaign>,
     zeros: &'a [Vec<f64>],
     coupling: Coupling,
@@ -151,9 +151,11 @@ impl<'a> Predictor<'a> {
         window_s: Option<f64>,
     ) -> Option<Self> {
         let arm = found.arm;
-        let campaign = match arm.gravity {
-            Some(load) => Cow::Owned(load.taken_from(campaign)),
-            None => Cow::Borrowed(campaign),
+        let load = arm.position_torque();
+        let campaign = if load.is_empty() {
+            Cow::Borrowed(campaign)
+        } else {
+            Cow::Owned(load.taken_from(campaign))
         };
         let coupling = Coupling::new(found, &campaign)?;
         let window_s = window_s.or_else(|| chosen_window_s(arm, &campaign))?;
@@ -283,7 +285,7 @@ struct WindowedRun<'a> {
     resting: Vec<f64>,
     /// Friction beside the mean viscous one at every sample.
     bent: Vec<f64>,
-    /// Torque of gravity at every sample; empty without a load.
+    /// Torque of gravity and torque ripples at every sample; empty without them.
     gravity: Vec<f64>,
     unread: Vec<usize>,
     shown: Vec<Vec<f64>>,
@@ -305,9 +307,12 @@ impl<'a> WindowedRun<'a> {
         let samples = || 0..run.len();
         let resting = samples().map(|i| if speed.moves(i) { 0.0 } else { 1.0 }).collect();
         let bent = samples().map(|i| predictor.bent(run, &speed, i)).collect();
-        let gravity = predictor.arm.gravity.map_or_else(Vec::new, |load| {
+        let load = predictor.arm.position_torque();
+        let gravity = if load.is_empty() {
+            Vec::new()
+        } else {
             run.motor().iter().map(|angle_rad| load.torque_nm(*angle_rad)).collect()
-        });
+        };
         let (unread, shown) = (predictor.unread(index), predictor.shown(index));
         Some(Self { predictor, index, run, kernel, speed, resting, bent, gravity, unread, shown })
     }

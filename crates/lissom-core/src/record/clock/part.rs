@@ -40,6 +40,22 @@ pub struct EvenPart {
     pub notes: Vec<Note>,
 }
 
+impl EvenPart {
+    /// Samples of a range, as a part of its own. The notes go with the first sample.
+    #[must_use]
+    pub fn piece(&self, range: Range<usize>) -> Self {
+        let start_s = self.time.start_s + range.start as f64 * self.time.sample_time_s;
+        let notes = if range.start == 0 { self.notes.clone() } else { Vec::new() };
+        Self {
+            time: TimeBase { start_s, ..self.time },
+            command: self.command[range.clone()].to_vec(),
+            motor: self.motor[range.clone()].to_vec(),
+            tips: self.tips.iter().map(|tip| tip[range.clone()].to_vec()).collect(),
+            notes,
+        }
+    }
+}
+
 /// Rows of a log, and how they become samples of one run.
 #[derive(Debug, Clone)]
 pub(super) struct Part {

@@ -6,13 +6,19 @@ use super::thresholds::{REPEATS_BROKEN, REPEATS_REGULARLY};
 const LEAST_CHANGES: usize = 100;
 /// Longest distance of readings in rows that is looked for.
 const LONGEST: usize = 64;
+/// Where readings come at uneven times, command and angle change together in at least this share of them, …
+const TOGETHER: f64 = 0.9;
+/// … a reading is several rows long on the whole, …
+const LEAST_REPEATS: f64 = 1.5;
+/// … and only one that stays for more than so many usual distances is that of a motor at rest.
+const UNEVEN_STAY: f64 = 4.0;
 /// Share of equal steps of the angle from which they are counts of a coarse encoder.
 const ONE_COUNT: f64 = 0.95;
 
 /// Rows that hold a reading for the first time, and the mean number of rows of a reading.
 ///
-/// `None` where readings are not repeated: rows change at irregular distances, or next to each other. While the motor
-/// rests, rows are kept at the distance of the readings.
+/// `None` where readings are not repeated: rows change next to each other, or the angle at irregular distances without the
+/// command. While the motor rests, rows are kept at the distance of the readings.
 pub(super) fn first_readings(
     command: &[f64],
     motor: &[f64],
@@ -33,7 +39,20 @@ pub(super) fn first_readings(
         return None;
     }
     let starts: Vec<usize> = (0..rows).filter(|&k| changed[k]).collect();
-    let per_reading = distance(&starts)?;
+    let regular = distance(&starts);
+    let (per_reading, stays) = if let Some(per_reading) = regular {
+        (per_reading, 1.5)
+    } else {
+        // Polled at uneven times: command and angle change together, which no encoder makes them do.
+        let both = turned.iter().filter(|&&k| differs(command, k)).count();
+        if (both as f64) < TOGETHER * turned.len() as f64 {
+            return None;
+        }
+        (usual_distance(&turned), UNEVEN_STAY)
+    };
+    if per_reading < LEAST_REPEATS {
+        return None;
+    }
     if one_count(motor, &turned) {
         let commanded = starts.iter().filter(|&&k| k > 0 && differs(command, k)).count();
         if 2 * commanded < starts.len() {
@@ -43,11 +62,19 @@ pub(super) fn first_readings(
     let mut kept = Vec::with_capacity((rows as f64 / per_reading) as usize + 1);
     for (index, &start) in starts.iter().enumerate() {
         let end = starts.get(index + 1).copied().unwrap_or(rows);
-        let readings = (((end - start) as f64 / per_reading).round() as usize).max(1);
+        let long = (end - start) as f64 / per_reading;
+        let readings = if long < stays { 1 } else { long.round() as usize };
         let row = |reading: usize| start + (reading as f64 * per_reading).round() as usize;
         kept.extend((0..readings).map(row).take_while(|&row| row < end));
     }
     Some((kept, per_reading))
+}
+
+/// The median distance of rows in which the angle changed.
+fn usual_distance(turned: &[usize]) -> f64 {
+    let mut distances: Vec<usize> = turned.windows(2).map(|pair| pair[1] - pair[0]).collect();
+    let middle = distances.len() / 2;
+    *distances.select_nth_unstable(middle).1 as f64
 }
 
 /// The mean distance of changed rows, if it is regular.

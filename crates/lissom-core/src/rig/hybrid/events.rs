@@ -191,7 +191,7 @@ impl Hybrid<'_> {
         let k = self.arm.dynamics().len();
         let angle = self.state[2..2 + k].iter().fold(self.state[0].abs(), |m, q| m.max(q.abs()));
         let coupling = 4.0 * f64::EPSILON * self.coupling_size * angle;
-        let load = self.gravity.map_or(0.0, |load| load.amplitude_nm());
+        let load = self.position_torque.largest_nm();
         coupling
             + ROUNDING * (torque.abs() + load + most.max(sliding.forward()).max(sliding.backward()))
     }

@@ -11,7 +11,7 @@ use super::{Motion, RigError, Signal, TipWorld};
 use crate::arm::Arm;
 use crate::drive::DryFriction;
 use crate::friction::{FrictionSeries, Mode, PhaseSeries};
-use crate::load::GravityLoad;
+use crate::load::{GravityLoad, PositionTorque, TorqueRipple};
 
 /// Largest (rate bound × step) for which a Taylor series of order [`ORDER_MOST`] is exact to
 /// rounding: 0.5²⁴/24! is 1e-31.
@@ -34,8 +34,8 @@ enum Torque<'s> {
 /// state matrix and are summed until they vanish. The velocity is then a polynomial, and its first root is the event.
 /// Nothing is smoothed, and there is no tolerance except rounding.
 ///
-/// Friction that changes with speed or position ([`DryFriction`]) and gravity ([`GravityLoad`]) make the series
-/// nonlinear. Its terms still follow from each other; steps are so short that the last of 24 terms is below 1e-15 of
+/// Friction that changes with speed or position ([`DryFriction`]), gravity ([`GravityLoad`]) and torque ripple
+/// ([`TorqueRipple`]) make the series nonlinear. Its terms still follow from each other; steps are so short that the last of 24 terms is below 1e-15 of
 /// the state. [`Motion::tolerance`] gives this value.
 ///
 /// ```
@@ -63,6 +63,9 @@ pub struct Hybrid<'a> {
     /// Friction as it was given, where it has been scaled.
     unscaled: Option<Box<DryFriction>>,
     gravity: Option<GravityLoad>,
+    torque_ripples: Vec<TorqueRipple>,
+    /// Both together.
+    position_torque: PositionTorque,
     world: Option<TipWorld>,
     /// Arms that come later, and when \[s\]; the next one last.
     changes: Vec<(f64, &'a Arm)>,
@@ -99,7 +102,8 @@ struct Coefficients {
     angle: [f64; ORDER_MOST + 1],
     velocity: [f64; ORDER_MOST + 1],
     friction: FrictionSeries,
-    phase: PhaseSeries,
+    /// Of each wave of the torque of position.
+    phases: Vec<PhaseSeries>,
 }
 
 impl Default for Coefficients {
@@ -114,13 +118,13 @@ impl Default for Coefficients {
             angle: zero,
             velocity: zero,
             friction: FrictionSeries::default(),
-            phase: PhaseSeries::default(),
+            phases: Vec::new(),
         }
     }
 }
 
 impl<'a> Hybrid<'a> {
-    /// Relative error of a step where friction bends or gravity acts: the series' last terms are below it.
+    /// Relative error of a step where friction bends or a torque of position acts: the series' last terms are below it.
     pub(in crate::rig) const BENT: f64 = 1e-15;
 
     /// Starts at rest, at angle zero.
@@ -139,6 +143,8 @@ impl<'a> Hybrid<'a> {
             friction: arm.coulomb.into(),
             unscaled: None,
             gravity: None,
+            torque_ripples: Vec::new(),
+            position_torque: PositionTorque::default(),
             world: None,
             changes: Vec::new(),
             state,
@@ -180,6 +186,29 @@ impl<'a> Hybrid<'a> {
     #[must_use]
     pub fn with_gravity(mut self, load: GravityLoad) -> Self {
         self.gravity = Some(load);
+        self.with_position_torque()
+    }
+
+    /// Returns this motion with torque ripples (cogging) on the motor, functions of the motor's angle.
+    ///
+    /// ```
+    /// # use lissom::{arm::Arm, beam::Beam, drive::{Coulomb, Motor}, load::TorqueRipple, rig::Hybrid};
+    /// let motor = Motor::new(0.02, 0.1, 1.0).unwrap(); // kg·m², N·m·s/rad, N·m/A
+    /// let arm = Arm::new(Beam::Rigid, motor, Coulomb::symmetric(0.0).unwrap()).unwrap();
+    /// let cogging = TorqueRipple { per_rad: 6.0, cosine_nm: 0.0, sine_nm: 0.05 }; // rests at θ = 0
+    /// let mut hybrid = Hybrid::with_state(&arm, vec![0.3]).with_torque_ripples(&[cogging]);
+    /// hybrid.advance(0.0, 20.0);
+    /// assert!(hybrid.state()[0].abs() < 1e-9);
+    /// ```
+    #[must_use]
+    pub fn with_torque_ripples(mut self, ripples: &[TorqueRipple]) -> Self {
+        self.torque_ripples = ripples.to_vec();
+        self.with_position_torque()
+    }
+
+    fn with_position_torque(mut self) -> Self {
+        self.position_torque = PositionTorque::new(self.gravity, &self.torque_ripples);
+        self.series.phases = vec![PhaseSeries::default(); self.position_torque.waves().len()];
         self.step_most_s = STEP_RATE / self.rate_bound();
         self
     }
@@ -316,12 +345,7 @@ impl<'a> Hybrid<'a> {
 
     /// Whether the motion of a slipping motor is nonlinear.
     fn bends(&self) -> bool {
-        self.gravity.is_some() || !self.friction.is_constant()
-    }
-
-    /// What gravity takes of the motor at its angle \[N·m\].
-    fn gravity_nm(&self) -> f64 {
-        self.gravity.map_or(0.0, |load| load.torque_nm(self.state[0]))
+        !self.position_torque.is_empty() || !self.friction.is_constant()
     }
 
     /// Moves on with the motor held, whatever the torques.

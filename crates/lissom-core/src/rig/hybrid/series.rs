@@ -3,7 +3,8 @@
 use super::events::{ROUNDING, pushed};
 use super::{Hybrid, Torque};
 use crate::drive::Coulomb;
-use crate::friction::Mode;
+use crate::friction::{Mode, PhaseSeries};
+use crate::load::TorqueRipple;
 use crate::lti::first_root::{ORDER_MOST, value};
 
 /// Relative size of terms that are left out: two orders below rounding.
@@ -31,9 +32,9 @@ impl Hybrid<'_> {
         self.world.as_ref().is_some_and(|w| w.coulomb_n > 0.0)
     }
 
-    /// A bound on how fast the state can change, gravity and the world at the tip included \[1/s\].
+    /// A bound on how fast the state can change, torques of position and the world at the tip included \[1/s\].
     pub(super) fn rate_bound(&self) -> f64 {
-        let swing = self.gravity.map_or(0.0, |load| load.amplitude_nm());
+        let swing = self.position_torque.stiffness_nm_per_rad();
         let own = self.arm.rate_bound() + (swing / self.arm.motor.inertia_kg_m2()).sqrt();
         let Some(world) = &self.world else { return own };
         let share = self.arm.dynamics().force.abs().max() * self.tip_radius_m();
@@ -42,14 +43,16 @@ impl Hybrid<'_> {
         own + (walls * share).sqrt() + world.viscous_n_s_per_m * share + signals
     }
 
-    /// The motor's torque now, less gravity and what the tip's torque adds to the coupling torque \[N·m\].
+    /// The motor's torque now, less that of position and what the tip's torque adds to the coupling torque \[N·m\].
     pub(super) fn torque_at_joint(&self, torque: Torque<'_>) -> f64 {
         let motor = match torque {
             Torque::Held(torque) => torque,
             Torque::Over(signal) => signal.at(self.time_s),
         };
         let tip = self.world.as_ref().map_or(0.0, |w| w.torque.at(self.time_s));
-        motor - self.arm.dynamics().coupling_torque * tip - self.gravity_nm()
+        motor
+            - self.arm.dynamics().coupling_torque * tip
+            - self.position_torque.torque_nm(self.state[0])
     }
 
     /// What a rubbing tip does from rest.
@@ -121,10 +124,12 @@ impl Hybrid<'_> {
         let (term, next) = (&before[k], &mut after[0]);
         let (s, arm) = (&mut self.series, self.arm);
         (s.angle[k], s.velocity[k]) = (term[0], term[1]);
-        let load = self.gravity.map_or(0.0, |load| {
-            let (sine, cosine) = s.phase.next(1.0, k, &s.angle);
-            load.sine_nm * sine + load.cosine_nm * cosine
-        });
+        let waves = s.phases.iter_mut().zip(self.position_torque.waves());
+        let torque = |(phase, wave): (&mut PhaseSeries, &TorqueRipple)| {
+            let (sine, cosine) = phase.next(wave.per_rad, k, &s.angle);
+            wave.sine_nm * sine + wave.cosine_nm * cosine
+        };
+        let load: f64 = waves.map(torque).sum();
         if self.mode == Mode::Stick {
             arm.derivative_sticking(term, next);
             s.held[k] = s.torque[k] - arm.coupling_torque(term) - load;

@@ -8,7 +8,7 @@ use stepper::{Bristling, Stepper};
 use super::{Motion, RigError};
 use crate::arm::Arm;
 use crate::drive::LuGre;
-use crate::load::GravityLoad;
+use crate::load::{GravityLoad, PositionTorque};
 
 /// Tolerances that a motion can have, finest and coarsest.
 const TOLERANCES: [f64; 2] = [1e-12, 1e-2];
@@ -97,8 +97,14 @@ impl LuGreMotion {
     /// Returns this motion with gravity of an unbalanced load on the motor. Gravity is assumed linear in time over a
     /// step, so that steps are of order 2; the tolerance is kept all the same.
     #[must_use]
-    pub fn with_gravity(mut self, load: GravityLoad) -> Self {
-        self.stepper.gravity = Some(load);
+    pub fn with_gravity(self, load: GravityLoad) -> Self {
+        self.with_position_torque(PositionTorque::new(Some(load), &[]))
+    }
+
+    /// Returns this motion with gravity and torque ripples (cogging) on the motor, as [`with_gravity`](Self::with_gravity).
+    #[must_use]
+    pub fn with_position_torque(mut self, load: PositionTorque) -> Self {
+        self.stepper.load = load;
         self
     }
 

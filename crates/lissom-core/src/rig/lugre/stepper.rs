@@ -4,7 +4,7 @@ use super::linear_steps::{ArmSteps, HALVINGS, is_velocity};
 use crate::arm::Arm;
 use crate::drive::LuGre;
 use crate::friction::{BristleStep, Bristles, LinearStep, Place};
-use crate::load::GravityLoad;
+use crate::load::PositionTorque;
 
 /// Largest share of a motion by which bristles bend while the joint counts as sliding.
 const HOLDS: f64 = 0.1;
@@ -51,7 +51,7 @@ pub(super) type Stopped = (f64, f64);
 pub(super) struct Stepper {
     pub(super) law: LuGre,
     pub(super) tolerance: f64,
-    pub(super) gravity: Option<GravityLoad>,
+    pub(super) load: PositionTorque,
     bristles: Bristles,
     /// The arm alone, and held by its bristles as by a spring.
     alone: ArmSteps,
@@ -71,7 +71,7 @@ impl Stepper {
         let scale = [bend, bend * swing];
         let spring = [bristles.stiffness_nm_per_rad, bristles.damping_nm_s_per_rad];
         let (alone, sprung) = (ArmSteps::new(arm, [0.0; 2]), ArmSteps::new(arm, spring));
-        Self { law, tolerance, gravity: None, bristles, alone, sprung, scale }
+        Self { law, tolerance, load: PositionTorque::default(), bristles, alone, sprung, scale }
     }
 
     /// Time in which the motor swings by 1 rad on its bristles \[s\].
@@ -141,7 +141,6 @@ impl Stepper {
         let (motor, len) = (now.x[0], now.x.len());
         let Bristles { stiffness_nm_per_rad: stiffness, damping_nm_s_per_rad: damping } =
             self.bristles;
-        let gravity = self.gravity;
         let mut step = self.sprung.step(halvings)?;
         let level = self.law.level_nm(Place::of_velocity(0.0, now.x[1], 0.0));
         let mut spring = [stiffness, damping];
@@ -153,7 +152,7 @@ impl Stepper {
         let mut from = now.x.clone();
         (0..len).filter(|i| !is_velocity(*i, len)).for_each(|i| from[i] -= motor);
         let mut x = vec![0.0; len];
-        let (load, growth) = gravity.map_or((0.0, 0.0), |load| over(&load, now, step.duration_s));
+        let (load, growth) = over(&self.load, now, step.duration_s);
         step.apply(&from, torque_nm - load - spring[0] * now.z, &mut x);
         x.iter_mut().zip(&step.ramp).for_each(|(x, ramp)| *x -= growth * ramp);
         let linear = LinearStep {
@@ -213,9 +212,9 @@ impl Stepper {
     }
 }
 
-/// What gravity takes of the motor at the beginning of a step, and what it grows by to the angle that the motor's
+/// What torques of position take of the motor at the beginning of a step, and what it grows by to the angle that the motor's
 /// velocity leads to \[N·m\].
-fn over(load: &GravityLoad, now: &Bristling, duration_s: f64) -> (f64, f64) {
+fn over(load: &PositionTorque, now: &Bristling, duration_s: f64) -> (f64, f64) {
     let begins = load.torque_nm(now.x[0]);
     (begins, load.torque_nm(now.x[0] + now.x[1] * duration_s) - begins)
 }

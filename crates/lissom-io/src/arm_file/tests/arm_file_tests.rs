@@ -22,11 +22,12 @@ fn reads_an_arm() {
     let modulus = 30e6 * 4.448_221_615_260_5 / (inch * inch);
     near(span.flexural_rigidity_n_m2, modulus * PI * (0.032 * inch).powi(4) / 64.0);
     assert_eq!(span.damping_n_s_per_m, 0.0);
-    let DriveSpec { coulomb_forward_nm, coulomb_backward_nm, .. } = arm.drive.unwrap();
+    let drive = arm.drive.unwrap();
+    let DriveSpec { coulomb_forward_nm, coulomb_backward_nm, .. } = drive;
     near(coulomb_forward_nm, 0.132 * 2.184 * lbf_in);
     near(coulomb_backward_nm, 0.132 * 2.184 * lbf_in);
-    near(arm.drive.unwrap().inertia_kg_m2, 0.005_529 * lbf_in);
-    near(arm.drive.unwrap().viscous_nm_s_per_rad, 0.012_16 * lbf_in);
+    near(drive.inertia_kg_m2, 0.005_529 * lbf_in);
+    near(drive.viscous_nm_s_per_rad, 0.012_16 * lbf_in);
     assert_eq!(
         arm.rig,
         Some(RigSpec {

@@ -3,7 +3,7 @@
 use crate::identify::drive_estimates::{DriveEstimates, Method};
 use crate::identify::estimate::Estimate;
 use crate::identify::findings::{ConstantVelocityFinding, Finding};
-use crate::identify::friction_estimates::Friction;
+use crate::identify::friction_estimates::{Friction, LawEstimates};
 use crate::identify::judge::{Chosen, Evidence};
 use crate::identify::methods::constant_velocity::ConstantVelocity;
 use crate::identify::methods::constant_velocity::line::FrictionLine;
@@ -46,15 +46,25 @@ fn friction_near_rest(found: &ConstantVelocity) -> Option<Friction> {
     let (forward, backward) = (f.near_rest(), b.near_rest());
     let std = 0.5 * forward.std.hypot(backward.std);
     let half = |value: f64| Some(Estimate { value: 0.5 * value, std });
+    let offset = half(forward.value - backward.value);
     let apart = (f.viscous.value - b.viscous.value).abs();
     let differ = apart > CLEARLY_PRESENT * f.viscous.std.hypot(b.viscous.std);
-    Some(Friction {
-        coulomb: half(forward.value + backward.value),
-        forward: Some(forward),
-        backward: Some(backward),
-        offset: half(forward.value - backward.value),
+    let coulomb = half(forward.value + backward.value);
+    let (forward, backward) = (Some(forward), Some(backward));
+    let law = LawEstimates {
+        coulomb,
+        forward,
+        backward,
         viscous: found.viscous,
-        viscous_by_direction: differ.then_some((f.viscous, b.viscous)),
-        ..Friction::default()
+        viscous_by_direction: Some((f.viscous, b.viscous)),
+        ..LawEstimates::default()
+    };
+    Some(Friction {
+        coulomb,
+        forward,
+        backward,
+        offset,
+        viscous: found.viscous,
+        law: differ.then_some(law),
     })
 }

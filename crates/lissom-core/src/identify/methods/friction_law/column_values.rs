@@ -4,6 +4,7 @@
 use std::ops::Range;
 
 use crate::drive::Falloff;
+use crate::friction::Root;
 use crate::identify::methods::friction_law::law_term::Column;
 
 /// Values of every column at the samples from `base` to `end`.
@@ -50,7 +51,7 @@ impl<'a> ColumnValues<'a> {
                         *value = exp_of_negative(-(v / fall) * (v / fall));
                     }
                 }
-                Column::Root => values.for_each(|(value, v)| *value = v.abs().sqrt()),
+                Column::Root => values.for_each(|(value, v)| *value = Root::growth(v.abs())),
                 column => {
                     let both = values.zip(angle);
                     both.for_each(|((value, v), x)| *value = column.at(v.abs(), *x));

@@ -1,17 +1,15 @@
 //! Friction against speed without a law: hat functions for each direction, in addition to a linear part.
 
-use nalgebra::DMatrix;
 use num_complex::Complex64;
 
 use crate::identify::estimate::Estimate;
+use crate::identify::methods::friction_law::blocks::{Acts, BlockRows, Gram, Regressor};
 use crate::identify::methods::friction_law::column_values::hat;
-use crate::identify::methods::friction_law::held::{by_direction, without_each};
-use crate::identify::methods::friction_law::law_rows::LawRows;
 use crate::identify::methods::friction_law::law_term::Column;
-use crate::identify::methods::friction_law::rows::{Cut, Sampled, fixed};
+use crate::identify::methods::friction_law::rows::{Cut, Sampled};
 use crate::identify::methods::friction_law::thresholds::KNOT_ROWS;
 use crate::identify::methods::output_error::OutputError;
-use crate::identify::methods::regression::{Cluster, Solution, Term, coupled_tips, values};
+use crate::identify::methods::regression::{MotorColumns, Solution, coupled_tips};
 use crate::replay::ModalArm;
 
 /// Ratio of one knot's speed to that of the next, from the fastest down.
@@ -20,8 +18,6 @@ const RATIO: f64 = 2.0;
 const MOST: usize = 9;
 /// Quantiles of the windows' speeds at which the first and the last knot stand.
 const ENDS: [f64; 2] = [0.01, 0.99];
-/// Most groups of slip phases that are left out, one after another, for the standard error.
-const MOST_GROUPS: usize = 100;
 
 /// Friction at one speed in one direction.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -43,9 +39,9 @@ pub struct CurvePoint {
 /// A hat is one at its knot and zero at its neighbours, so that its coefficient is friction there.
 #[derive(Debug)]
 pub(crate) struct CurveSums {
-    rows: LawRows,
-    /// Inertia and couplings, what is no friction by speed, hats forward, hats backward.
-    terms: Vec<Term>,
+    rows: BlockRows,
+    /// Columns of inertia and couplings, of what is no friction by speed, of hats forward and hats backward.
+    columns: Vec<usize>,
     /// Of inertia and couplings.
     linear: usize,
     /// First column of the tips' rates, which no term has: damping within the beam, where it is known.
@@ -59,12 +55,12 @@ pub(crate) struct CurveSums {
 }
 
 impl CurveSums {
-    /// `beside` are columns of what is no friction by speed, with their `terms`.
+    /// `beside` are the regressors of what is no friction by speed.
     pub(super) fn new(
         sampled: &Sampled<'_>,
         cut: &Cut,
         speeds: &[f64],
-        (beside, terms): (&[Column], &[Term]),
+        beside: &[Regressor],
     ) -> Option<Self> {
         let places = sampled.places();
         let knots = knots(speeds, |knots, j| {
@@ -75,20 +71,22 @@ impl CurveSums {
             [about(1.0), about(-1.0)]
         })?;
         let campaign = sampled.campaign;
-        let first = fixed(campaign);
         let tips = coupled_tips(campaign);
-        let mut columns = beside.to_vec();
-        columns.extend((0..knots.len()).map(Column::Hat));
-        let rates = first + columns.len();
-        columns.extend((0..tips.len()).map(Column::Rate));
-        let rows = LawRows::of(sampled, &columns, &knots, cut);
-        let mut all = vec![Term::Plain(0)];
-        all.extend((3..first).map(Term::Plain));
-        let linear = all.len();
-        all.extend(terms);
-        let at = first + beside.len();
-        all.extend((0..knots.len()).map(|j| Term::Forward(at + j)));
-        all.extend((0..knots.len()).map(|j| Term::Backward(at + j)));
+        let mut rows = BlockRows::of(sampled, cut);
+        let first = rows.width();
+        let hats = [Acts::Forward, Acts::Backward]
+            .map(|acts| (0..knots.len()).map(move |j| Regressor::Function(Column::Hat(j), acts)));
+        let mut further = beside.to_vec();
+        further.extend(hats.into_iter().flatten());
+        let rates = first + further.len();
+        let rate = |tip: usize| Regressor::Function(Column::Rate(tip), Acts::Alike);
+        further.extend((0..tips.len()).map(rate));
+        rows.add(sampled, &further, &knots);
+        // Viscous and Coulomb friction and the offset are the hats'.
+        let couplings = MotorColumns::of(campaign).couplings();
+        let mut columns: Vec<usize> = std::iter::once(0).chain(couplings.start..first).collect();
+        let linear = columns.len();
+        columns.extend(first..rates);
         let windows = [1.0, -1.0].map(|sign| {
             let near = |j: usize| {
                 let there = places.iter().filter(|p| p.sign * sign > 0.0);
@@ -98,7 +96,7 @@ impl CurveSums {
         });
         Some(Self {
             rows,
-            terms: all,
+            columns,
             linear,
             rates,
             tips,
@@ -109,11 +107,11 @@ impl CurveSums {
     }
 
     /// The curve with inertia and couplings from the same windows, and what it leaves. Its standard errors are
-    /// by leaving out slip phases, and no less than the regression's own.
-    pub(super) fn by_phases(&self) -> Option<(Vec<CurvePoint>, f64)> {
-        let solution = self.rows.solved(&self.terms)?;
-        let by_phases = jackknife(&self.rows, &self.terms, &solution)?;
-        Some((self.points(&solution, &by_phases), solution.relative_residual))
+    /// by leaving out blocks of slip phases, and no less than the regression's own.
+    pub(super) fn by_blocks(&self) -> Option<(Vec<CurvePoint>, f64)> {
+        let solution = self.rows.solved(&self.columns)?;
+        let by_blocks = jackknife(&self.rows, &self.columns, &solution)?;
+        Some((self.points(&solution, &by_blocks), solution.relative_residual))
     }
 
     /// The curve with inertia and couplings of the arm that the output error found, far better known than by
@@ -122,18 +120,16 @@ impl CurveSums {
     /// than they say: a sensor's steps come back with a repeated motion, alike in all its phases. `None` where the tips do not show all of its coupling torque, at once.
     pub(crate) fn beside_arm(&self, found: &OutputError) -> Option<Vec<CurvePoint>> {
         let known = self.known(&found.arm)?;
-        let terms = &self.terms[self.linear..];
-        let rows = self.rows.without(&known);
-        let solution = rows.solved(terms)?;
-        let by_phases = jackknife(&rows, terms, &solution)?;
-        let totals = by_direction(self.rows.classes());
+        let columns = &self.columns[self.linear..];
+        let rows = self.rows.less(&known);
+        let solution = rows.solved(columns)?;
+        let by_blocks = jackknife(&rows, columns, &solution)?;
+        let total = self.rows.total();
         let by_arm = found.variances(&|arm| {
-            let known = self.known(arm)?;
-            let totals = totals.each_ref().map(|sum| without_linear(sum, &known));
-            let estimates = values(&totals, terms)?;
+            let estimates = total.less(&self.known(arm)?).values(columns)?;
             Some(estimates.iter().map(|v| Complex64::new(*v, 0.0)).collect())
         })?;
-        let variances: Vec<f64> = by_phases.iter().zip(by_arm).map(|(a, b)| a + b).collect();
+        let variances: Vec<f64> = by_blocks.iter().zip(by_arm).map(|(a, b)| a + b).collect();
         let mut points = self.points(&solution, &variances);
         let longer = self.beyond_law(&points, found)?;
         for point in &mut points {
@@ -152,7 +148,7 @@ impl CurveSums {
             [arm.coupling_by_tip()?, arm.coupling_rate_by_tip()?]
         };
         let values = std::iter::once(arm.inertia_kg_m2).chain(per_angle).collect::<Vec<f64>>();
-        let linear = self.terms[..self.linear].iter().map(|term| term.column());
+        let linear = self.columns[..self.linear].iter().copied();
         let known = linear.zip(values.iter().copied());
         let rates = per_rate.into_iter().enumerate().map(|(i, rate)| (self.rates + i, rate));
         (shown && values.len() == self.linear).then(|| known.chain(rates).collect())
@@ -204,28 +200,15 @@ impl CurveSums {
     }
 }
 
-/// The sums with some columns, times what is known of them, taken off the right side.
-fn without_linear(sums: &Cluster, known: &[(usize, f64)]) -> Cluster {
-    let right = sums.products.ncols() - 1;
-    let mut taken = DMatrix::identity(right + 1, right + 1);
-    for (column, value) in known {
-        taken[(*column, right)] = -value;
-    }
-    let of = |sums: &DMatrix<f64>| taken.transpose() * sums * &taken;
-    Cluster { products: of(&sums.products), noise: of(&sums.noise), ..sums.clone() }
-}
-
-/// Variance of every estimate by leaving out one group of slip phases after another: residuals within a
-/// group may belong together as they like, and a few phases that carry much count fully.
-fn jackknife(rows: &LawRows, terms: &[Term], full: &Solution) -> Option<Vec<f64>> {
-    let phases = rows.blocks().iter().map(|b| b.phase + 1).max()?;
-    let groups = phases.min(MOST_GROUPS);
-    let sums = rows.sums(2 * groups, |b| 2 * (b.phase % groups) + usize::from(b.sign < 0.0));
-    let sums: Vec<[Cluster; 2]> = sums.chunks(2).map(by_direction).collect();
-    let estimates = without_each(&sums, terms)?;
-    let square =
-        |i: usize| estimates.iter().flatten().map(|v| (v[i] - full.value[i]).powi(2)).sum();
-    Some((0..terms.len()).map(square).collect())
+/// Variance of every estimate by leaving out one block of slip phases after another: residuals within a
+/// block may belong together as they like, and a few phases that carry much count fully.
+fn jackknife(rows: &BlockRows, columns: &[usize], full: &Solution) -> Option<Vec<f64>> {
+    let total = rows.total();
+    let blocks: Vec<Gram> = rows.groups(rows.blocks, |unit| Some(unit.block));
+    let without = |block: &Gram| total.without(block).values(columns);
+    let estimates: Vec<_> = blocks.iter().map(without).collect::<Option<_>>()?;
+    let square = |i: usize| estimates.iter().map(|v| (v[i] - full.value[i]).powi(2)).sum();
+    Some((0..columns.len()).map(square).collect())
 }
 
 /// Speeds of the knots, ascending; `about` gives the windows about a knot in either direction.

@@ -3,6 +3,8 @@
 use crate::identify::estimate::Estimate;
 use crate::identify::findings::{BetterLaw, EstimateUnits, Finding, FrictionLawFinding, LawSource};
 use crate::identify::judge::{Chosen, Evidence};
+use crate::identify::methods::friction_law::candidates::ModelTerm;
+use crate::identify::methods::friction_law::choice::LawCandidate;
 use crate::identify::methods::friction_law::law_term::LawTerm;
 use crate::identify::methods::friction_law::thresholds::LAW_LEAVES_MUCH;
 use crate::identify::methods::output_error::OutputError;
@@ -26,9 +28,14 @@ pub(crate) fn finding(evidence: &Evidence<'_>, chosen: &Chosen) -> Option<Findin
         };
         return reported(by_replay, source);
     }
-    let law = evidence.methods.friction_law.as_ref().filter(|law| law.chosen.departs())?;
-    let taken = law.candidates.iter().filter(|c| c.taken && c.term != LawTerm::CommandLag);
-    let paired = taken.map(|c| c.paired).fold(f64::INFINITY, f64::min);
+    let law = evidence.methods.friction_law.as_ref()?;
+    let is_friction = |(term, _): &(LawTerm, Vec<Estimate>)| *term != LawTerm::CommandLag;
+    if !law.chosen.terms.iter().any(is_friction) {
+        return None;
+    }
+    let is_lag = |c: &LawCandidate| c.term == ModelTerm::Law(LawTerm::CommandLag);
+    let taken = law.candidates.iter().filter(|c| c.taken && !is_lag(c));
+    let paired = taken.map(|c| c.standard_errors).fold(f64::INFINITY, f64::min);
     let of_noise = |r: &MotorRegression| r.left.by_noise > NOISE_ALONE;
     let of_noise = evidence.methods.regression.as_ref().is_some_and(of_noise);
     let left_over = law.relative_residual[1];

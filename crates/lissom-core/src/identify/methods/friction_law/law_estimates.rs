@@ -2,7 +2,7 @@
 
 use crate::identify::drive_estimates::DriveEstimates;
 use crate::identify::estimate::Estimate;
-use crate::identify::friction_estimates::Friction;
+use crate::identify::friction_estimates::{Friction, LawEstimates};
 use crate::identify::methods::friction_law::LawFit;
 use crate::identify::methods::friction_law::law_term::LawTerm;
 
@@ -26,13 +26,17 @@ fn friction(law: &LawFit) -> Friction {
     };
     let difference = law.term(|t| *t == LawTerm::ViscousByDirection);
     let by_direction = |sign: f64| sum(law.viscous, difference, sign);
-    Friction {
+    let whole = LawEstimates {
         coulomb: law.coulomb,
         forward: law.forward,
         backward: law.backward,
-        offset: law.offset,
         viscous: law.viscous,
         viscous_by_direction: by_direction(1.0).zip(by_direction(-1.0)),
-        ..Friction::of_law_terms(&law.terms, law.at_rest)
-    }
+        ..LawEstimates::of_law_terms(&law.terms, law.at_rest)
+    };
+    let [coulomb, viscous] = law.projected;
+    let [forward, backward] = law.projected_by_direction;
+    let offset = law.offset;
+    let law = whole.has_terms().then_some(whole);
+    Friction { coulomb, forward, backward, offset, viscous, law }
 }

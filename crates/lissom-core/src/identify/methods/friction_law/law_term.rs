@@ -1,7 +1,7 @@
 //! A term of a friction law: its name, its function, and how it is represented in an arm.
 
 use crate::drive::Falloff;
-use crate::identify::methods::friction_law::thresholds::NEAR_REST_MOST;
+use crate::friction::{Root, WithLoad};
 use crate::load::GravityLoad;
 use crate::replay::{DryTerms, NearRest, Ripple};
 
@@ -21,16 +21,15 @@ pub enum LawTerm {
         /// Exponential or Gaussian.
         falloff: Falloff,
     },
-    /// Presliding: friction has not reached its level in the first travel after a reversal, and that travel is left
-    /// out. The term has no amplitude.
-    AfterTravel {
-        /// Travel that is left out \[rad\].
-        travel: f64,
-    },
     /// `s·A·√|v|`.
     Root,
     /// `s·(A_1·cos kθ + A_2·sin kθ)`.
     Ripple {
+        /// k: phase of the ripple per angle \[rad/rad\], or per length on a linear axis \[1/m\].
+        per_angle: f64,
+    },
+    /// `A_1·cos kθ + A_2·sin kθ`: cogging, or another torque of the position that acts in both directions alike.
+    TorqueRipple {
         /// k: phase of the ripple per angle \[rad/rad\], or per length on a linear axis \[1/m\].
         per_angle: f64,
     },
@@ -43,9 +42,6 @@ pub enum LawTerm {
     /// The command acts later than it is logged; the amplitude is this time \[s\].
     CommandLag,
 }
-
-/// Speeds over which friction near rest may change, as shares of the fastest.
-pub(super) const NEAR_REST: [f64; 8] = [0.02, 0.03, 0.05, 0.08, 0.12, 0.2, 0.3, NEAR_REST_MOST];
 
 /// What a row holds beside inertia, viscous and dry friction and the tips: `∫w·f` of a function of speed
 /// or angle, or what a lag of the command adds.
@@ -65,6 +61,17 @@ pub(super) enum Column {
     Sine(f64),
     /// `θ·(−a·sin kθ + b·cos kθ)`, for (k, a, b): what a·cos kθ + b·sin kθ gains with k.
     Turned(f64, f64, f64),
+    /// `a·|v|/v_s²·e^{−|v|/v_s}`, for (v_s, a): what a·e^{−|v|/v_s} gains with v_s.
+    NearRestGain(f64, f64),
+    /// `((θ − middle)/half)^power`: position on a travel.
+    Position {
+        /// Middle of the travel.
+        middle: f64,
+        /// Half of the travel.
+        half: f64,
+        /// Power.
+        power: i32,
+    },
     /// `∫w(θ̇_m − θ̇_i)` of the coupled tip of this number: damping within the beam.
     Rate(usize),
     /// A hat over speed: one at the knot of this number, zero at its neighbours.
@@ -76,14 +83,18 @@ impl Column {
     pub(super) fn at(self, speed: f64, angle: f64) -> f64 {
         match self {
             Self::NearRest(fall, falloff) => falloff.share(speed / fall),
-            Self::Root => speed.sqrt(),
-            Self::Load(load) => load.torque_nm(angle).abs(),
+            Self::Root => Root::growth(speed),
+            Self::Load(load) => WithLoad { coefficient: 1.0, load }.load_nm(angle),
             Self::Cosine(k) => (k * angle).cos(),
             Self::Sine(k) => (k * angle).sin(),
             Self::Turned(k, a, b) => {
                 let (sin, cos) = (k * angle).sin_cos();
                 angle * (b * cos - a * sin)
             }
+            Self::NearRestGain(fall, size) => {
+                size * speed / (fall * fall) * Falloff::Exponential.share(speed / fall)
+            }
+            Self::Position { middle, half, power } => ((angle - middle) / half).powi(power),
             Self::Lag | Self::Rate(_) | Self::Hat(_) => 0.0,
         }
     }
@@ -99,37 +110,6 @@ pub enum ScaleUnit {
 }
 
 impl LawTerm {
-    /// The terms that are tried first; ripples are offered when the rest is found. `whole` says whether the travel
-    /// after reversals is used: without it the shape near rest shows.
-    /// The `load` is gravity's, where it acts.
-    pub(super) fn offered(fastest: f64, whole: bool, load: Option<GravityLoad>) -> Vec<Self> {
-        let shapes: &[Falloff] = if whole {
-            &[Falloff::Exponential]
-        } else {
-            &[Falloff::Exponential, Falloff::Gaussian]
-        };
-        let near_rest = shapes.iter().flat_map(|&falloff| {
-            NEAR_REST.map(|share| Self::NearRest { speed: share * fastest, falloff })
-        });
-        [Self::ViscousByDirection, Self::CommandLag, Self::Root]
-            .into_iter()
-            .chain(load.map(|load| Self::WithLoad { load }))
-            .chain(near_rest)
-            .collect()
-    }
-
-    /// The columns that it needs in addition to those of the motor's equation.
-    pub(super) fn columns(self) -> Vec<Column> {
-        match self {
-            Self::ViscousByDirection | Self::AfterTravel { .. } => Vec::new(),
-            Self::NearRest { speed, falloff } => vec![Column::NearRest(speed, falloff)],
-            Self::Root => vec![Column::Root],
-            Self::WithLoad { load } => vec![Column::Load(load)],
-            Self::Ripple { per_angle } => vec![Column::Cosine(per_angle), Column::Sine(per_angle)],
-            Self::CommandLag => vec![Column::Lag],
-        }
-    }
-
     /// Whether an arm with these terms may get it too.
     pub(crate) fn may_join(self, terms: &DryTerms, ripples_most: usize) -> bool {
         let near = |k: f64, r: &Ripple| (r.per_rad / k).ln().abs() < std::f64::consts::LN_2 / 2.0;
@@ -139,11 +119,35 @@ impl LawTerm {
                 terms.ripples.len() < ripples_most
                     && !terms.ripples.iter().any(|r| near(per_angle, r))
             }
-            Self::ViscousByDirection
-            | Self::AfterTravel { .. }
-            | Self::Root
-            | Self::WithLoad { .. }
-            | Self::CommandLag => false,
+            _ => false,
+        }
+    }
+
+    /// The speed or the frequency of a term that has one; zero of others.
+    pub(super) fn scanned(self) -> f64 {
+        match self {
+            Self::NearRest { speed, .. } => speed,
+            Self::Ripple { per_angle } | Self::TorqueRipple { per_angle } => per_angle,
+            _ => 0.0,
+        }
+    }
+
+    /// The same term at another one.
+    pub(super) fn with_scanned(self, scanned: f64) -> Self {
+        match self {
+            Self::NearRest { falloff, .. } => Self::NearRest { speed: scanned, falloff },
+            Self::Ripple { .. } => Self::Ripple { per_angle: scanned },
+            Self::TorqueRipple { .. } => Self::TorqueRipple { per_angle: scanned },
+            other => other,
+        }
+    }
+
+    /// What the term with these amplitudes gains with it.
+    pub(super) fn gain(self, amplitudes: &[f64]) -> Column {
+        match (self, amplitudes) {
+            (Self::NearRest { speed, .. }, [size, ..]) => Column::NearRestGain(speed, *size),
+            (_, [cosine, sine, ..]) => Column::Turned(self.scanned(), *cosine, *sine),
+            _ => Column::Root,
         }
     }
 
@@ -151,8 +155,7 @@ impl LawTerm {
     pub fn scale(self) -> Option<(f64, ScaleUnit)> {
         match self {
             Self::NearRest { speed, .. } => Some((speed, ScaleUnit::Speed)),
-            Self::AfterTravel { travel } => Some((travel, ScaleUnit::Angle)),
-            Self::Ripple { per_angle } => {
+            Self::Ripple { per_angle } | Self::TorqueRipple { per_angle } => {
                 Some((std::f64::consts::TAU / per_angle, ScaleUnit::Angle))
             }
             Self::ViscousByDirection | Self::Root | Self::WithLoad { .. } | Self::CommandLag => {
@@ -166,10 +169,10 @@ impl LawTerm {
         match self {
             Self::ViscousByDirection => "viscous-by-direction",
             Self::NearRest { .. } => "near-rest",
-            Self::AfterTravel { .. } => "after-travel",
             Self::Root => "root",
             Self::WithLoad { .. } => "with-load",
             Self::Ripple { .. } => "ripple",
+            Self::TorqueRipple { .. } => "torque-ripple",
             Self::CommandLag => "command-lag",
         }
     }
@@ -180,32 +183,23 @@ impl LawTerm {
         match self {
             Self::ViscousByDirection => direction * amplitude * speed,
             Self::NearRest { speed: fall, falloff } => amplitude * falloff.share(speed / fall),
-            Self::Root => amplitude * speed.sqrt(),
+            Self::Root => amplitude * Root::growth(speed),
             Self::CommandLag
             | Self::Ripple { .. }
-            | Self::WithLoad { .. }
-            | Self::AfterTravel { .. } => 0.0,
+            | Self::TorqueRipple { .. }
+            | Self::WithLoad { .. } => 0.0,
         }
     }
 
     /// Whether it is a function of speed.
     pub(super) fn is_by_speed(self) -> bool {
-        !matches!(self, Self::CommandLag | Self::Ripple { .. } | Self::WithLoad { .. })
-    }
-
-    /// Whether an arm can have it. One that has friction near rest has it with an exponential.
-    pub(super) fn is_of_arms(self) -> bool {
-        match self {
-            Self::Root | Self::AfterTravel { .. } | Self::WithLoad { .. } => false,
-            Self::NearRest { falloff, .. } => falloff == Falloff::Exponential,
-            _ => true,
-        }
+        matches!(self, Self::ViscousByDirection | Self::NearRest { .. } | Self::Root)
     }
 
     /// Amplitudes with which it does nothing.
     pub(crate) fn without_effect(self) -> &'static [f64] {
         match self {
-            Self::Ripple { .. } => &[0.0; 2],
+            Self::Ripple { .. } | Self::TorqueRipple { .. } => &[0.0; 2],
             _ => &[0.0],
         }
     }
@@ -219,22 +213,19 @@ impl LawTerm {
                 terms.near_rest = Some(near);
             }
             Self::Ripple { per_angle } => {
-                let [cosine_nm, sine_nm, ..] = *amplitude else { return };
-                terms.ripples.push(Ripple { per_rad: per_angle, cosine_nm, sine_nm });
+                let [cosine_nm, sine_nm, ref rate @ ..] = *amplitude else { return };
+                let per_rad = rate.first().copied().unwrap_or(per_angle);
+                terms.ripples.push(Ripple { per_rad, cosine_nm, sine_nm });
             }
-            Self::ViscousByDirection
-            | Self::AfterTravel { .. }
-            | Self::Root
-            | Self::WithLoad { .. }
-            | Self::CommandLag => {}
+            Self::Root => {
+                let [torque_nm_per_root_rad_s, ..] = *amplitude else { return };
+                terms.root = Some(Root { torque_nm_per_root_rad_s });
+            }
+            Self::WithLoad { load } => {
+                let [coefficient, ..] = *amplitude else { return };
+                terms.with_load = Some(WithLoad { coefficient, load });
+            }
+            Self::ViscousByDirection | Self::TorqueRipple { .. } | Self::CommandLag => {}
         }
-    }
-
-    pub(super) fn is_near_rest(self) -> bool {
-        matches!(self, Self::NearRest { .. })
-    }
-
-    pub(super) fn is_ripple(self) -> bool {
-        matches!(self, Self::Ripple { .. })
     }
 }

@@ -1,56 +1,67 @@
-//! Friction against speed: as a curve without a law, and as the simplest law that the data do not reject.
+//! A model of the torque: the line (inertia, Coulomb and viscous friction, offset, couplings, gravity) and the terms beyond it
+//! that predict better, with friction against speed as a curve without a law.
 //!
-//! Both are least squares on windows in slip phases, as in the regression. The windows are as short as the sensor
-//! allows, because long windows average out the change of friction near rest.
+//! All is least squares on windows in slip phases, as in the regression. The windows are as short as the sensor
+//! allows, because long windows average out what changes with speed and place.
 
+mod blocks;
+mod candidates;
 pub(crate) mod choice;
 mod column_values;
 mod curve;
-mod described;
 mod friction_law_findings;
-mod held;
+mod lag;
 mod law_estimates;
 mod law_in_arm;
-mod law_rows;
 mod law_term;
-mod refine;
+mod prediction;
+mod projection;
 mod ripple;
 mod rows;
 #[cfg(test)]
 mod tests;
 pub(crate) mod thresholds;
+mod unadopted;
 
+pub use candidates::{MissingKind, ModelTerm};
 pub use choice::LawCandidate;
 pub use curve::CurvePoint;
 pub(crate) use curve::CurveSums;
 pub(crate) use friction_law_findings::finding;
+pub(crate) use lag::delayed;
+pub use lag::{AngleLag, LagShape};
 pub(crate) use law_term::NEAR_REST_STEP;
 pub use law_term::{LawTerm, ScaleUnit};
+pub(crate) use projection::Speeds;
+pub(crate) use unadopted::widened;
+pub use unadopted::{MissingTerm, Moved};
 
 use rayon::prelude::*;
 
 use crate::identify::estimate::Estimate;
 use crate::identify::gravity_estimate::Gravity;
+use crate::identify::methods::friction_law::choice::{Search, choose};
+use crate::identify::methods::friction_law::prediction::Improvement;
 use crate::identify::methods::friction_law::thresholds::{
-    AFTER_TRAVEL_LEAVES, FASTEST_QUANTILE, LAG_FALLS_TO, NOTHING_LEFT, TORQUE_OF_NOISE,
-    TRAVEL_AFTER_REVERSAL,
+    FASTEST_QUANTILE, LAG_SETTLED, LAG_SHAPE_TOLD, TORQUE_OF_NOISE,
 };
 use crate::identify::methods::output_error::OutputError;
-use crate::identify::methods::regression::{MissingKind, MotorRegression, Terms};
+use crate::identify::methods::regression::{ModeShape, MotorRegression, Terms};
 use crate::identify::prepare::channel_noise::{ChannelNoise, channel_noise};
 use crate::identify::prepare::prepared::Prepared;
-use crate::identify::thresholds::{RESIDUAL_FALLS_TO, SIGN_SHOWN};
+use crate::identify::prepare::run_noise::RunNoise;
+use crate::load::GravityLoad;
 use crate::record::{Campaign, Run};
-use choice::Choice;
-use described::Described;
 use rows::{Cut, Sampled};
 
 /// Fewest samples in a window.
 const LEAST_SAMPLES: f64 = 20.0;
 /// Ratio of one window tried to that before it.
 const LONGER: f64 = std::f64::consts::SQRT_2;
+/// A lag is found in at most this many rounds, each corrected by the one before.
+const LAG_ROUNDS: usize = 4;
 
-/// Friction against speed, and its law.
+/// The model of the torque that slip phases give, and friction against speed.
 #[derive(Debug, Clone, PartialEq)]
 pub struct FrictionLaw {
     /// Length of the windows \[s\].
@@ -61,10 +72,17 @@ pub struct FrictionLaw {
     pub curve: Vec<CurvePoint>,
     /// All terms that were tried, in order.
     pub candidates: Vec<LawCandidate>,
-    /// Estimates with the law that was chosen.
+    /// Estimates with the terms that were adopted.
     pub chosen: LawFit,
-    /// Relative residual ‖y − X·q‖/‖y‖ with Coulomb friction and one viscous constant, with the chosen law, and with
-    /// the curve \[1\].
+    /// Effects that the logs show and the model does not contain, with what they do to the estimates.
+    pub missing: Vec<MissingTerm>,
+    /// Lag of the angle behind the command that the estimates take into account, if it was adopted.
+    pub lag: Option<AngleLag>,
+    /// What terms that are not known to be absent would change the estimates of the line by: a change of each for a term.
+    pub(crate) moves: Vec<Vec<f64>>,
+    /// The speeds of the windows.
+    pub(crate) speeds: Speeds,
+    /// Relative residual ‖y − X·q‖/‖y‖ of the line, of the chosen model, and of the curve \[1\].
     pub relative_residual: [f64; 3],
 }
 
@@ -81,6 +99,11 @@ pub struct LawFit {
     pub viscous: Option<Estimate>,
     /// Coulomb friction C.
     pub coulomb: Option<Estimate>,
+    /// The line C + V·|v| nearest to friction at the speeds of the windows, weighted with time: Coulomb friction, and viscous
+    /// friction. Without terms by speed these are C and V.
+    pub projected: [Option<Estimate>; 2],
+    /// The same Coulomb friction with the offset, forward and backward.
+    pub projected_by_direction: [Option<Estimate>; 2],
     /// Friction at rest C + A, if the law has a term near rest.
     pub at_rest: Option<Estimate>,
     /// Offset O.
@@ -111,20 +134,13 @@ impl FrictionLaw {
         Self { curve, ..self }
     }
 
-    /// Whether beside the law a lag of the command explains nothing that pays for it.
-    pub(crate) fn leaves_no_lag(&self) -> bool {
-        let lags = self.candidates.iter().filter(|c| c.term == LawTerm::CommandLag);
-        let last = lags.max_by_key(|c| c.beside);
-        last.is_some_and(|c| c.beside > 0 && c.residual_ratio > LAG_FALLS_TO)
-    }
-
     /// Terms that were tried last of their kind, those of the law first.
     pub(crate) fn tried(&self) -> Vec<LawTerm> {
         let chosen = self.chosen.terms.iter().map(|(term, _)| *term);
         let mut found: Vec<LawTerm> = chosen.collect();
-        for c in self.candidates.iter().rev() {
-            if found.iter().all(|t| t.name() != c.term.name()) {
-                found.push(c.term);
+        for term in self.candidates.iter().rev().filter_map(|c| c.term.law()) {
+            if found.iter().all(|t| t.name() != term.name()) {
+                found.push(term);
             }
         }
         found
@@ -149,20 +165,31 @@ impl LawFit {
         found.1.first().copied()
     }
 
-    /// Whether Coulomb friction, surely there, may have grown from `less` than it is.
-    fn may_grow_by(&self, less: f64) -> bool {
-        let sure = |e: &Estimate| e.value > SIGN_SHOWN * e.std;
-        let surely = self.inertia.as_ref().is_some_and(sure);
-        surely && self.coulomb.is_some_and(|c| sure(&c) && 0.0 < less && less < c.value)
-    }
-
-    /// Whether the law has terms in addition to Coulomb friction and one viscous constant.
+    /// Whether the model has a term beyond the line.
     pub fn departs(&self) -> bool {
-        self.terms.iter().any(|(term, _)| *term != LawTerm::CommandLag)
+        !self.terms.is_empty()
     }
 }
 
-/// Curve and law of a campaign whose motor's estimates are roughly known, and the sums that the curve is
+/// What a model of a campaign's torque is made from.
+struct Source<'a> {
+    campaign: &'a Campaign,
+    noise: &'a [RunNoise],
+    window_s: f64,
+    mode: Option<ModeShape>,
+    load: Option<GravityLoad>,
+}
+
+impl Source<'_> {
+    /// Its windows, of commands that were made late.
+    fn sampled<'b>(&self, campaign: &'b Campaign, lag_s: f64) -> Sampled<'b> {
+        let mut sampled = Sampled::new(campaign, self.noise, self.window_s, self.mode);
+        (sampled.load, sampled.lag_s) = (self.load, lag_s);
+        sampled
+    }
+}
+
+/// Model and curve of a campaign whose motor's estimates are roughly known, and the sums that the curve is
 /// from; `None` where slip phases are too few or too short.
 pub(crate) fn friction_law(
     prepared: &Prepared<'_>,
@@ -170,85 +197,96 @@ pub(crate) fn friction_law(
 ) -> Option<(FrictionLaw, CurveSums)> {
     let inertia = motor.inertia?.value;
     let (campaign, noise) = (prepared.used(), prepared.noise());
-    let runs = campaign.runs.par_iter().with_max_len(1);
-    let sensors: Vec<ChannelNoise> = runs.map(|run| channel_noise(run.motor())).collect();
-    let step = sensors.iter().map(|sensor| sensor.step).fold(0.0, f64::max);
     let load = motor.gravity.map(|g| g.load());
     let mode = motor.mode.map(|m| m.shape());
-    let windows_of = |window_s: f64| {
-        let mut sampled = Sampled::new(campaign, noise, window_s, mode);
-        (sampled.load, sampled.step) = (load, step);
-        sampled
-    };
+    let mut source = Source { campaign, noise, window_s: motor.window_s, mode, load };
     // A mode that no tip shows enters by fourth derivatives: noise fills short windows.
-    let mut sampled = match mode {
-        Some(_) => windows_of(motor.window_s),
-        None => short_windows(windows_of, campaign, motor, (inertia, &sensors)),
+    if mode.is_none() {
+        source.window_s = short_windows(&source, motor, inertia);
+    }
+    let sampled = source.sampled(campaign, 0.0);
+    let found = Found::of(&sampled, false)?;
+    let Some(lag) = found.lag() else { return found.law(&sampled, None) };
+    let (shape, time_s, ratio) = shape_of_lag(&source, &found, lag)?;
+    let mut time_s = time_s;
+    for round in 0.. {
+        let late = delayed(campaign, shape, time_s);
+        let sampled = source.sampled(&late, time_s);
+        let found = Found::of(&sampled, true)?;
+        let rest = found.lag()?;
+        let sample_s = campaign.runs.first()?.sample_time_s();
+        if round + 1 < LAG_ROUNDS && rest.value.abs() > LAG_SETTLED * sample_s {
+            time_s += rest.value;
+            continue;
+        }
+        let samples = time_s / sample_s;
+        let lag = AngleLag { time_s, samples, shape, residual_ratio: ratio, std_s: rest.std };
+        return found.law(&sampled, Some(lag));
+    }
+    None
+}
+
+/// Whether the equation with a mode that no tip measures predicts blocks that were left out better than the one without, each
+/// with the terms that it calls for, in windows of the same length.
+pub(crate) fn mode_predicts_better(
+    prepared: &Prepared<'_>,
+    rigid: &MotorRegression,
+    flexible: &MotorRegression,
+) -> bool {
+    let (campaign, noise) = (prepared.used(), prepared.noise());
+    let predicted = |motor: &MotorRegression| {
+        let load = motor.gravity.map(|g| g.load());
+        let mode = motor.mode.map(|m| m.shape());
+        let source = Source { campaign, noise, window_s: flexible.window_s, mode, load };
+        let sampled = source.sampled(campaign, 0.0);
+        Found::of(&sampled, false)?.search.left_out_shares()
     };
-    let found = UnderLaw::of(&sampled)?;
-    let (mut law, mut sums) = found.with_curve(&sampled)?;
-    let mut described = found.choice.described;
-    // In windows so short noise may hide a term that the regression's own windows show.
-    let by_speed = motor.missing.is_some_and(|m| m.kind == MissingKind::Stribeck);
-    if by_speed && !law.chosen.departs() && sampled.window_s < motor.window_s {
-        let longer = windows_of(motor.window_s);
-        let found = UnderLaw::of(&longer).filter(|found| found.choice.fit.departs());
-        if let Some((with_curve, found)) = found.and_then(|f| Some((f.with_curve(&longer)?, f))) {
-            (law, sums) = with_curve;
-            described = found.choice.described;
-            sampled = longer;
-        }
-    }
-    if described.left(&sampled).beyond_noise() < NOTHING_LEFT {
-        return Some((law, sums));
-    }
-    Some(after_travel(&sampled, &described).unwrap_or((law, sums)))
+    let both = predicted(rigid).zip(predicted(flexible));
+    both.is_some_and(|(without, with)| Improvement::between(&without, &with).is_sure)
 }
 
-/// The same without what follows reversals, where it describes the rest far better than the law of all
-/// windows does: bristles (presliding), a soft transmission or a sensor's play let friction grow over some
-/// travel, and no function of speed does.
-fn after_travel(sampled: &Sampled<'_>, whole: &Described) -> Option<(FrictionLaw, CurveSums)> {
-    let travels = sampled.travels();
-    let usual = *travels.get(travels.len() / 2)?;
-    let windows = sampled.places().len();
-    let shares = TRAVEL_AFTER_REVERSAL.into_par_iter().with_max_len(1);
-    let tried = shares.map(|share| {
-        let after = sampled.beginning_after(share * usual);
-        if after.places().len() < windows / 2 {
-            return None;
+/// Whether a lag is a filter or a delay, its time \[s\], and the residual with it over that without.
+fn shape_of_lag(
+    source: &Source<'_>,
+    found: &Found<'_>,
+    lag: Estimate,
+) -> Option<(LagShape, f64, f64)> {
+    let without = found.search.residual_without_lag()?;
+    let settled = |shape: LagShape| -> Option<(f64, f64)> {
+        let mut time_s = lag.value;
+        let mut left = f64::INFINITY;
+        for _ in 0..2 {
+            let late = delayed(source.campaign, shape, time_s);
+            let sampled = source.sampled(&late, time_s);
+            let (residual, rest) = found.search.with_lagged(&sampled, &found.cut)?;
+            left = residual;
+            time_s += rest;
         }
-        let found = UnderLaw::of(&after);
-        let found = found.and_then(|found| {
-            let described = &found.choice.described;
-            let (with, without) = (described.left(&after), whole.left(&after));
-            let less = -described.left(sampled).more_friction_without(&with);
-            // On the same windows: without some, little may be left of what was never to be explained.
-            let worth = with.beyond_noise() < AFTER_TRAVEL_LEAVES * without.beyond_noise()
-                && with.relative() < RESIDUAL_FALLS_TO * without.relative();
-            found.choice.fit.may_grow_by(less).then_some((found, worth))
-        });
-        Some((after, found))
-    });
-    // Of longer travels there are fewer windows yet.
-    let tried = tried.collect::<Vec<_>>().into_iter().map_while(|tried| tried);
-    let tried = tried.filter_map(|(after, found)| Some((after, found?)));
-    let mut tried: Vec<_> = tried.collect();
-    tried.iter().any(|(_, (_, worth))| *worth).then_some(())?;
-    tried.sort_by(|(_, (a, _)), (_, (b, _))| a.choice.residual.total_cmp(&b.choice.residual));
-    tried.iter().find_map(|(after, (found, _))| found.with_curve(after))
+        Some((time_s, left))
+    };
+    let delay = settled(LagShape::Delay)?;
+    // A filter does not look ahead.
+    let filter =
+        if lag.value > 0.0 { settled(LagShape::Filter).filter(|f| f.0 > 0.0) } else { None };
+    let (shape, (time_s, left)) = match filter {
+        Some(filter) if filter.1 < LAG_SHAPE_TOLD * delay.1 => (LagShape::Filter, filter),
+        Some(filter) if delay.1 > LAG_SHAPE_TOLD * filter.1 => (LagShape::Either, delay),
+        _ => (LagShape::Delay, delay),
+    };
+    Some((shape, time_s, left / without))
 }
 
-/// The law of some windows, before the curve.
-struct UnderLaw {
-    choice: Choice,
+/// The model that some windows give, before the curve.
+struct Found<'a> {
+    search: Search<'a>,
     cut: Cut,
+    line_residual: f64,
     /// Of the windows, ascending.
     speeds: Vec<f64>,
 }
 
-impl UnderLaw {
-    fn of(sampled: &Sampled<'_>) -> Option<Self> {
+impl<'a> Found<'a> {
+    fn of(sampled: &'a Sampled<'a>, lagged: bool) -> Option<Self> {
         let places = sampled.places();
         let mut speeds: Vec<f64> = places.iter().map(|p| p.speed).collect();
         let mut angles: Vec<f64> = places.iter().map(|p| p.angle).collect();
@@ -262,47 +300,60 @@ impl UnderLaw {
             middle: quantile(&angles, 0.5)?,
             thirds: [quantile(&speeds, 1.0 / 3.0)?, quantile(&speeds, 2.0 / 3.0)?],
         };
-        let choice = choice::choose(sampled, &cut, fastest)?;
-        Some(Self { choice, cut, speeds })
+        let (search, line_residual) = choose(sampled, &cut, fastest, lagged)?;
+        Some(Self { search, cut, line_residual, speeds })
     }
 
-    /// The law with the curve, and the sums that the curve is from.
-    fn with_curve(&self, sampled: &Sampled<'_>) -> Option<(FrictionLaw, CurveSums)> {
-        let Self { choice, cut, speeds } = self;
-        let (columns, terms) = &choice.beside;
-        let sums = CurveSums::new(sampled, cut, speeds, (columns, terms))?;
-        let (curve, by_curve) = sums.by_phases()?;
+    /// The lag of the command, if it was adopted.
+    fn lag(&self) -> Option<Estimate> {
+        self.search.lag()
+    }
+
+    /// The model with the curve, and the sums that the curve is from.
+    fn law(
+        &self,
+        sampled: &Sampled<'_>,
+        lag: Option<AngleLag>,
+    ) -> Option<(FrictionLaw, CurveSums)> {
+        let Self { search, cut, speeds, line_residual } = self;
+        let quantiles = Speeds::of(speeds);
+        let (fit, residual, missing, moves) = search.fit(&quantiles, lag)?;
+        let sums = CurveSums::new(sampled, cut, speeds, &search.not_by_speed())?;
+        let (curve, by_curve) = sums.by_blocks()?;
         let law = FrictionLaw {
             window_s: sampled.window_s,
             speed_range: [*speeds.first()?, *speeds.last()?],
             curve,
-            relative_residual: [choice.simplest, choice.residual, by_curve],
-            candidates: choice.candidates.clone(),
-            chosen: choice.fit.clone(),
+            relative_residual: [*line_residual, residual, by_curve],
+            candidates: search.candidates.clone(),
+            chosen: fit,
+            missing,
+            lag,
+            moves,
+            speeds: quantiles,
         };
         Some((law, sums))
     }
 }
 
-/// The shortest windows in which the motor's sensor makes no more than [`TORQUE_OF_NOISE`] of the torque, and no
+/// Length of the shortest windows in which the motor's sensor makes no more than [`TORQUE_OF_NOISE`] of the torque, and no
 /// longer than the regression's.
-fn short_windows<'a>(
-    windows_of: impl Fn(f64) -> Sampled<'a>,
-    campaign: &Campaign,
-    motor: &MotorRegression,
-    (inertia, sensors): (f64, &[ChannelNoise]),
-) -> Sampled<'a> {
+fn short_windows(source: &Source<'_>, motor: &MotorRegression, inertia: f64) -> f64 {
+    let campaign = source.campaign;
     let sample_s = campaign.runs.iter().map(Run::sample_time_s).fold(0.0, f64::max);
     // White noise σ in the angle makes σ·√T of every scaled row.
-    let of_run = |(run, sensor): (&Run, &ChannelNoise)| sensor.std * run.sample_time_s().sqrt();
-    let sensor = campaign.runs.iter().zip(sensors).map(of_run).fold(0.0, f64::max);
+    let of_run = |run: &Run| {
+        let sensor: ChannelNoise = channel_noise(run.motor());
+        sensor.std * run.sample_time_s().sqrt()
+    };
+    let sensor = campaign.runs.par_iter().with_max_len(1).map(of_run).reduce(|| 0.0, f64::max);
     let mut window_s = LEAST_SAMPLES * sample_s;
     loop {
-        let sampled = windows_of(window_s);
+        let sampled = Source { window_s, ..*source }.sampled(campaign, 0.0);
         let little = |power: f64| inertia.abs() * sensor < TORQUE_OF_NOISE * power.sqrt();
         let longest = window_s * LONGER >= motor.window_s;
         if longest || sampled.power().is_some_and(little) {
-            return sampled;
+            return window_s;
         }
         window_s *= LONGER;
     }

@@ -1,43 +1,57 @@
-//! Finds periods of the residual over the angle that stand out: candidates for ripple.
+//! Periods of the residual over the angle that stand out: candidates for ripples.
 #![expect(clippy::inline_always, reason = "compiled for wide registers as one")]
 
 use std::f64::consts::TAU;
 
 use crate::identify::methods::friction_law::rows::Sampled;
 
-/// Longest period looked at, as a share of the travel, and points per one more period in it.
-const LEAST_PERIODS: f64 = 1.0;
+/// A ripple repeats at least so often over the travel, and periods are looked at in so many steps for one more period.
+pub(super) const LEAST_PERIODS: f64 = 2.0;
 const PER_PERIOD: f64 = 4.0;
-/// Periods are looked at down to this many windows' travel at the usual speed.
+/// Periods are looked at down to so many windows' travel at a slow speed, the tenth percentile.
 const SHORTEST: f64 = 2.0;
+const SLOW: f64 = 0.1;
 /// Most frequencies looked at, and rows.
 const MOST: usize = 400;
 const ROWS: usize = 6000;
 
-/// The spatial frequency, in radians per unit of angle, at which friction's residual over the angle is
-/// largest, of windows whose rows leave `residual`; `None` where the travel is too short.
-pub(super) fn strongest(sampled: &Sampled<'_>, residual: &[f64]) -> Option<f64> {
-    let mut left: Vec<(f64, f64)> = Vec::with_capacity(residual.len());
-    let mut speed = 0.0;
-    for (place, residual) in sampled.places().iter().zip(residual) {
-        left.push((place.angle, place.sign * residual));
-        speed += place.speed;
-    }
-    speed /= left.len() as f64;
-    let travel = travel(left.iter().map(|p| p.0));
-    let most = travel / (SHORTEST * speed * sampled.window_s);
-    let step = TAU / travel / PER_PERIOD;
-    let count = ((most - LEAST_PERIODS) * PER_PERIOD) as usize;
+/// The spatial frequency, in radians per unit of angle, at which what windows leave stands out most among those `wanted`;
+/// with the sign of the motion if it is `friction`. `None` where the travel is too short.
+pub(super) fn strongest(
+    sampled: &Sampled<'_>,
+    residual: &[f64],
+    friction: bool,
+    wanted: impl Fn(usize) -> bool,
+) -> Option<f64> {
+    let [low, high] = sampled.travel();
+    let travel = high - low;
+    let most = travel / (SHORTEST * sampled.speed(SLOW)? * sampled.window_s);
+    let step = step(sampled);
+    let count = (((most - LEAST_PERIODS) * PER_PERIOD) as usize).min(MOST);
     if !(travel > 0.0 && most.is_finite()) || count == 0 {
         return None;
     }
+    let used = sampled.places().iter().zip(residual).enumerate().filter(|(i, _)| wanted(*i));
+    let left = used.map(|(_, (place, residual))| {
+        (place.angle, residual * if friction { place.sign } else { 1.0 })
+    });
+    let left: Vec<(f64, f64)> = left.collect();
     let thinned: Vec<_> = left.iter().copied().step_by((left.len() / ROWS).max(1)).collect();
-    let first = LEAST_PERIODS * PER_PERIOD;
-    let frequencies = (0..count.min(MOST)).map(|i| (first + i as f64) * step);
-    let count = count.min(MOST);
-    let powers =
-        pulp::Arch::new().dispatch(Powers { left: &thinned, first: first * step, step, count });
-    frequencies.zip(powers).max_by(|a, b| a.1.total_cmp(&b.1)).map(|p| p.0)
+    let first = LEAST_PERIODS * PER_PERIOD * step;
+    let powers = pulp::Arch::new().dispatch(Powers { left: &thinned, first, step, count });
+    let (best, _) = powers.iter().enumerate().max_by(|a, b| a.1.total_cmp(b.1))?;
+    // Between the steps, by a parabola through the largest and its neighbours.
+    let at = |i: usize| powers.get(i).copied().unwrap_or(0.0);
+    let (before, here, after) = (best.checked_sub(1).map_or(0.0, at), at(best), at(best + 1));
+    let bend = before - 2.0 * here + after;
+    let between = if bend < 0.0 { 0.5 * (before - after) / bend } else { 0.0 };
+    Some(first + (best as f64 + between.clamp(-0.5, 0.5)) * step)
+}
+
+/// How far apart the frequencies are that [`strongest`] looks at.
+pub(super) fn step(sampled: &Sampled<'_>) -> f64 {
+    let [low, high] = sampled.travel();
+    TAU / (high - low).max(f64::MIN_POSITIVE) / PER_PERIOD
 }
 
 /// |Σ residual·e^{jkθ}| at `count` frequencies k from `first` on, `step` apart.
@@ -78,15 +92,4 @@ impl pulp::WithSimd for Powers<'_> {
         }
         sums.into_iter().map(|[cosine, sine]| cosine.hypot(sine)).collect()
     }
-}
-
-/// How far apart the frequencies are that [`strongest`] looks at.
-pub(super) fn step(sampled: &Sampled<'_>) -> f64 {
-    TAU / travel(sampled.places().iter().map(|place| place.angle)) / PER_PERIOD
-}
-
-fn travel(angles: impl Iterator<Item = f64>) -> f64 {
-    let ends = (f64::INFINITY, f64::NEG_INFINITY);
-    let (low, high) = angles.fold(ends, |(low, high), x| (low.min(x), high.max(x)));
-    high - low
 }

@@ -4,14 +4,14 @@
 
 use std::sync::{Arc, OnceLock};
 
-use nalgebra::{DMatrix, DVector};
+use nalgebra::DMatrix;
 use rayon::prelude::*;
 
 use crate::identify::methods::friction_law::column_values::ColumnValues;
-use crate::identify::methods::friction_law::law_term::{Column, LawTerm, ScaleUnit};
+use crate::identify::methods::friction_law::law_term::Column;
 use crate::identify::methods::regression::{
     ModeShape, ModeTerms, ModeWindow, MotorColumns, MotorEquation, Phase, Rows, SMOOTHED_PART,
-    SMOOTHING_LEAST, SineAndCosine, Term, WINDOW_STEP, Window, velocity_and_phases,
+    SMOOTHING_LEAST, SineAndCosine, WINDOW_STEP, Window, velocity_and_phases,
 };
 use crate::identify::prepare::run_noise::RunNoise;
 use crate::load::GravityLoad;
@@ -47,54 +47,6 @@ impl Cut {
     }
 }
 
-/// A window's row: what the motor's regression has, then the columns asked for, then the right side.
-#[derive(Clone, Copy)]
-pub(super) struct LawRow<'a> {
-    /// Of the motor's equation, its right side last.
-    equation: &'a [f64],
-    further: &'a [f64],
-}
-
-impl LawRow<'_> {
-    pub(super) fn column(&self, index: usize) -> f64 {
-        let own = self.equation.len() - 1;
-        if index < own { self.equation[index] } else { self.further[index - own] }
-    }
-
-    pub(super) fn right(&self) -> f64 {
-        self.equation[self.equation.len() - 1]
-    }
-
-    pub(super) fn copy_to(&self, row: &mut [f64]) {
-        let own = self.equation.len() - 1;
-        let last = row.len() - 1;
-        row[..own].copy_from_slice(&self.equation[..own]);
-        row[own..last].copy_from_slice(self.further);
-        row[last] = self.right();
-    }
-}
-
-/// Rows of all windows, one after the other.
-pub(super) struct RowTable<'a> {
-    pub(super) places: &'a [WindowPlace],
-    pub(super) width: usize,
-    equation: &'a [f64],
-    further: ColumnTable,
-}
-
-impl RowTable<'_> {
-    /// Every window's place and row.
-    pub(super) fn iter(&self) -> impl Iterator<Item = (&WindowPlace, LawRow<'_>)> {
-        self.places.iter().enumerate().map(|(i, place)| (place, self.row(i)))
-    }
-
-    pub(super) fn row(&self, index: usize) -> LawRow<'_> {
-        let own = self.width - self.further.count;
-        let equation = &self.equation[index * own..(index + 1) * own];
-        LawRow { equation, further: self.further.row(index) }
-    }
-}
-
 /// Some columns of all windows, row by row.
 pub(super) struct ColumnTable {
     count: usize,
@@ -107,38 +59,14 @@ impl ColumnTable {
     }
 }
 
-/// The columns that terms use, and the terms with the places of these.
-pub(super) fn used(
-    campaign: &Campaign,
-    columns: &[Column],
-    terms: &[Term],
-) -> (Vec<Column>, Vec<Term>) {
-    let first = fixed(campaign);
-    let mut kept = Vec::new();
-    let moved = terms.iter().map(|term| match term.column().checked_sub(first) {
-        None => *term,
-        Some(index) => {
-            kept.push(columns[index]);
-            term.at(first + kept.len() - 1)
-        }
-    });
-    let moved = moved.collect();
-    (kept, moved)
-}
-
-/// Columns of a row before the first [`Column`].
-pub(super) fn fixed(campaign: &Campaign) -> usize {
-    MotorColumns::of(campaign).count()
-}
-
 /// The runs with what their windows need.
 pub(super) struct Sampled<'a> {
     pub(super) campaign: &'a Campaign,
     pub(super) window_s: f64,
     /// Gravity's load as the regression has it, where it acts.
     pub(super) load: Option<GravityLoad>,
-    /// Largest step of the motor's sensor; zero where none shows.
-    pub(super) step: f64,
+    /// Delay by which the commands of the campaign were made late already \[s\].
+    pub(super) lag_s: f64,
     runs: Arc<Vec<Slipping>>,
     windows: Windows,
     /// Rows of the motor's equation, the right side last, once they were asked for.
@@ -147,11 +75,11 @@ pub(super) struct Sampled<'a> {
 
 /// Every window of each run.
 struct Windows {
-    /// Travel since a reversal: windows that begin within it are left out.
-    after: f64,
     /// First samples.
     starts: Vec<Vec<usize>>,
     places: Vec<WindowPlace>,
+    /// How much of the campaign is over in the middle of each.
+    elapsed: Vec<f64>,
 }
 
 /// What the windows of one run have in common.
@@ -193,7 +121,7 @@ impl<'a> Sampled<'a> {
                     let columns = &columns;
                     let mode = ModeTerms::of(mode.as_ref(), None);
                     MotorEquation { campaign, run, columns, gravity: None, window, mode }
-                        .noise(noise, 0)
+                        .noise(noise, 1)
                 },
             );
             let gravity = columns.gravity.then(|| SineAndCosine::of(run.motor()));
@@ -201,59 +129,29 @@ impl<'a> Sampled<'a> {
         };
         let runs = campaign.runs.par_iter().zip(noise).with_max_len(1);
         let runs: Vec<Slipping> = runs.map(of).collect();
-        let windows = Windows::of(campaign, &runs, 0.0);
+        let windows = Windows::of(campaign, &runs);
         let equation = OnceLock::new();
         let runs = Arc::new(runs);
-        Self { campaign, window_s, load: None, step: 0.0, runs, windows, equation }
+        Self { campaign, window_s, load: None, lag_s: 0.0, runs, windows, equation }
     }
 
-    /// The same without windows that begin within so much travel since a reversal.
-    pub(super) fn beginning_after(&self, travel: f64) -> Self {
-        Self {
-            runs: Arc::clone(&self.runs),
-            windows: Windows::of(self.campaign, &self.runs, travel),
-            equation: OnceLock::new(),
-            ..*self
-        }
+    /// Lowest and highest angle of the windows.
+    pub(super) fn travel(&self) -> [f64; 2] {
+        let ends = [f64::INFINITY, f64::NEG_INFINITY];
+        let widen = |[low, high]: [f64; 2], p: &WindowPlace| [low.min(p.angle), high.max(p.angle)];
+        self.places().iter().fold(ends, widen)
     }
 
-    /// Travel since a reversal within which no window begins.
-    pub(super) fn after(&self) -> f64 {
-        self.windows.after
+    /// The speed that a share of the windows are slower than; `None` without windows.
+    pub(super) fn speed(&self, share: f64) -> Option<f64> {
+        let mut speeds: Vec<f64> = self.places().iter().map(|p| p.speed).collect();
+        let at = (share * speeds.len() as f64) as usize;
+        (at < speeds.len()).then(|| *speeds.select_nth_unstable_by(at, f64::total_cmp).1)
     }
 
-    /// What the sensors' noise adds to the square of a row's sum of columns, in each run.
-    pub(super) fn noise_powers(&self, taken: &DVector<f64>) -> Vec<f64> {
-        let own = taken.len();
-        let of = |run: &Slipping| match run.window {
-            Some(_) => taken.dot(&(run.noise.view((0, 0), (own, own)) * taken)),
-            None => 0.0,
-        };
-        self.runs.iter().map(of).collect()
-    }
-
-    /// Whether the motor's sensor has steps fine enough for a term: an angle over which it changes, or how far the motor
-    /// goes in a window at a speed over which it does, is more than one.
-    pub(super) fn resolves(&self, term: LawTerm) -> bool {
-        let over = match term.scale() {
-            None => return true,
-            Some((angle, ScaleUnit::Angle)) => angle,
-            Some((speed, ScaleUnit::Speed)) => speed * self.window_s,
-        };
-        over > self.step
-    }
-
-    /// How far the motor goes in each slip phase that holds a window, ascending.
-    pub(super) fn travels(&self) -> Vec<f64> {
-        let of_run = |(run, slipping): (&Run, &Slipping)| {
-            let motor = run.motor();
-            let gone = slipping.phases.iter().map(|p| (motor[p.to - 1] - motor[p.from]).abs());
-            gone.collect::<Vec<_>>()
-        };
-        let mut found: Vec<f64> =
-            self.campaign.runs.iter().zip(self.runs.iter()).flat_map(of_run).collect();
-        found.sort_by(f64::total_cmp);
-        found
+    /// How much of the campaign is over in the middle of a window, from −½ to ½, the runs one after the other.
+    pub(super) fn elapsed(&self, window: usize) -> f64 {
+        self.windows.elapsed[window]
     }
 
     /// Where every window lies.
@@ -261,21 +159,15 @@ impl<'a> Sampled<'a> {
         &self.windows.places
     }
 
-    /// Every window's row: what the motor's regression has, then `columns`, then the right side.
-    pub(super) fn rows(&self, columns: &[Column], knots: &[f64]) -> RowTable<'_> {
+    /// Rows of the motor's equation, one after the other, each with its right side last.
+    pub(super) fn equation_rows(&self) -> &[f64] {
         let own = MotorColumns::of(self.campaign);
-        let equation = self.equation.get_or_init(|| {
+        self.equation.get_or_init(|| {
             self.in_parts(own.count() + 1, |run, firsts, values| {
                 let rows = EquationRows { sampled: self, own: &own, run, firsts, values };
                 pulp::Arch::new().dispatch(rows);
             })
-        });
-        RowTable {
-            places: self.places(),
-            width: own.count() + columns.len() + 1,
-            equation,
-            further: self.columns(columns, knots),
-        }
+        })
     }
 
     /// Every window's `columns`.
@@ -348,30 +240,42 @@ impl<'a> Sampled<'a> {
 }
 
 impl Windows {
-    fn of(campaign: &Campaign, runs: &[Slipping], after: f64) -> Self {
+    fn of(campaign: &Campaign, runs: &[Slipping]) -> Self {
         let samples: usize = campaign.runs.iter().map(Run::len).sum();
+        let mut lasts_s = 0.0;
+        let before_s: Vec<f64> = campaign
+            .runs
+            .iter()
+            .map(|run| {
+                let before = lasts_s;
+                lasts_s += run.len() as f64 * run.sample_time_s();
+                before
+            })
+            .collect();
         let of_run = |(run, slipping): (usize, &Slipping)| {
-            let (mut starts, mut places) = (Vec::new(), Vec::new());
+            let (mut starts, mut places, mut elapsed) = (Vec::new(), Vec::new(), Vec::new());
             let n = slipping.window.as_ref().map_or(usize::MAX, Window::len);
             let step = ((n as f64 * WINDOW_STEP) as usize).max(samples / MOST_ROWS).max(1);
             let motor = campaign.runs[run].motor();
+            let t = campaign.runs[run].sample_time_s();
             let mut phase = 0;
             for Phase { from, to, sign } in slipping.phases.iter().filter(|p| p.to - p.from > n) {
-                let gone = |k: &usize| (motor[*k] - motor[*from]).abs();
-                let Some(begin) = (*from..to - n).find(|k| gone(k) >= after) else { continue };
-                for first in (begin..to - n).step_by(step) {
+                for first in (*from..to - n).step_by(step) {
                     let middle = first + n / 2;
                     let (speed, angle) = (slipping.velocity[middle].abs(), motor[middle]);
+                    elapsed.push((before_s[run] + middle as f64 * t) / lasts_s - 0.5);
                     starts.push(first);
                     places.push(WindowPlace { run, phase, sign: *sign, speed, angle });
                 }
                 phase += 1;
             }
-            (starts, places, phase)
+            (starts, places, elapsed, phase)
         };
         let of_runs = runs.par_iter().enumerate().with_max_len(1).map(of_run);
-        let (mut starts, mut places, mut phases) = (Vec::new(), Vec::new(), 0);
-        for (of_run, mut there, count) in of_runs.collect::<Vec<_>>() {
+        let (mut starts, mut places, mut elapsed) = (Vec::new(), Vec::new(), Vec::new());
+        let mut phases = 0;
+        for (of_run, mut there, over, count) in of_runs.collect::<Vec<_>>() {
+            elapsed.extend(over);
             for place in &mut there {
                 place.phase += phases;
             }
@@ -379,7 +283,7 @@ impl Windows {
             starts.push(of_run);
             places.extend(there);
         }
-        Self { after, starts, places }
+        Self { starts, places, elapsed }
     }
 }
 

@@ -1,7 +1,6 @@
 //! Known laws on a known motion.
 
 use super::*;
-use crate::drive::Falloff;
 use crate::identify::methods::regression::motor_regression;
 use crate::identify::options::Options;
 use crate::record::{Axis, Channels, Command, CommandQuantity, Hold, Run, TimeBase};
@@ -115,27 +114,4 @@ fn a_ripple_is_found_with_its_period() {
     let size = amplitude.iter().take(2).map(|e| e.value.powi(2)).sum::<f64>().sqrt();
     assert!((size / 0.06 - 1.0).abs() < 2e-3, "{size}");
     near(law.chosen.inertia.unwrap(), INERTIA, 0.01);
-}
-
-/// Bristles in closed form, dy/dx = (g − y)/δ along the travel x, with a level g that rises towards rest:
-/// no function of speed has what follows a reversal.
-#[test]
-fn friction_that_grows_over_travel_is_left_out_after_reversals() {
-    let (breakaway, rises, within) = (4e-3, 0.15, 0.5);
-    let (mut bent, mut at) = (0.0, None);
-    let law = law_of(|v, angle| {
-        let level = COULOMB + rises * (-(v / within) * (v / within)).exp();
-        let steady = level * v.signum();
-        let travel = (angle - at.replace(angle).unwrap_or(angle)).abs();
-        bent = steady + (bent - steady) * (-travel / breakaway).exp();
-        VISCOUS * v + bent
-    });
-    let chosen = &law.chosen;
-    let travel = |t: &LawTerm| matches!(t, LawTerm::AfterTravel { travel } if *travel > breakaway);
-    assert!(chosen.terms.iter().any(|(t, _)| travel(t)), "{:?}", chosen.terms);
-    let square = |t: &LawTerm| matches!(t, LawTerm::NearRest { falloff: Falloff::Gaussian, .. });
-    near(chosen.term(square).unwrap(), rises, 0.05);
-    // Friction comes δ later than its level, which near rest acts as an inertia δ·|g′(v)|/|v|, up to 0.24·J here.
-    near(chosen.inertia.unwrap(), INERTIA, 0.02);
-    near(chosen.coulomb.unwrap(), COULOMB, 0.01);
 }

@@ -1,19 +1,10 @@
-//! Choice of the friction law.
+//! Choice of the model of the torque.
 
 thresholds! {
     "friction law" {
         /// Windows are lengthened until the torque that inertia makes of the sensor's noise is less
         /// than this share of the torque.
         TORQUE_OF_NOISE: f64 = 0.02, "1", Convention;
-        /// A law whose residual beyond noise is less than this share of the torque is complete: no
-        /// law with presliding is tried.
-        NOTHING_LEFT: f64 = 0.005, "1", Convention;
-        /// Travel after a reversal that is left out, tried in turn, as shares of the usual travel
-        /// of a slip phase: presliding friction builds up there.
-        TRAVEL_AFTER_REVERSAL: [f64; 3] = [0.03, 0.06, 0.12], "1", Convention;
-        /// The travel after reversals is left out only if this reduces the residual beyond noise to
-        /// this share.
-        AFTER_TRAVEL_LEAVES: f64 = 0.75, "1", Convention;
         /// Quantile of the speeds that is taken as the fastest speed, so that a few outliers do not
         /// matter.
         FASTEST_QUANTILE: f64 = 0.98, "1", Convention;
@@ -21,25 +12,33 @@ thresholds! {
         /// fastest speed: the logs do not show the end of a slower change, and Coulomb friction
         /// would be undetermined.
         NEAR_REST_MOST: f64 = 0.5, "1", Convention;
+        /// Probability that chance alone gives an improvement of the prediction that adopts a
+        /// term: two standard errors of a normal distribution, by Student's t for few blocks.
+        BETTER_CHANCE: f64 = 0.022_75, "1", Derived;
+        /// No term is adopted if there are fewer blocks of neighbouring slip phases than this.
+        BLOCKS_LEAST: usize = 6, "blocks", Convention;
+        /// A term that was not adopted counts as possible if its amplitude is more than this.
+        MAY_BE_PRESENT: f64 = 1.0, "standard errors", Convention;
+        /// Longest lag of a drive, its bus and its sensors.
+        LAG_MOST_S: f64 = 0.1, "s", Convention;
+        /// The command is made later until less than this remains of its lag; a lag below it is
+        /// none.
+        LAG_SETTLED: f64 = 0.05, "samples", Convention;
+        /// A lag of the angle is a filter and not a delay, or a delay and not a filter, if the
+        /// residual with the one is less than this share of the residual with the other.
+        LAG_SHAPE_TOLD: f64 = 0.8, "1", Convention;
+        /// Gravity is tried as a missing term only if the motor turns by more than this: over a
+        /// smaller angle its sine is a straight line, like the torque of a spring.
+        TRAVEL_OF_GRAVITY_RAD: f64 = 1.0, "rad", Convention;
+        /// Largest number of terms of a model beyond the line.
+        TERMS_MOST: usize = 5, "terms", Convention;
         /// A friction law that leaves more than this share of the torque unexplained, and not by
         /// noise, may stand for another effect: it is reported as a warning.
         LAW_LEAVES_MUCH: f64 = 0.05, "1", Convention;
-        /// As `RESIDUAL_FALLS_TO`, for friction near standstill if the travel after reversals is
-        /// left out: the two appear together, and most of the residual is then noise.
-        AFTER_TRAVEL_FALLS_TO: f64 = 0.95, "1", Convention;
-        /// As `RESIDUAL_FALLS_TO`, for a lag of the command: a lag acts only at the ends of a
-        /// motion.
-        LAG_FALLS_TO: f64 = 0.97, "1", Convention;
-        /// A lag of the command is accepted only if its standard error is below this. If it were
-        /// accepted before the friction law is known, it would replace a part of the law, with
-        /// either sign.
-        LAG_KNOWN: f64 = 0.1, "samples", Convention;
-        /// Largest number of terms of a law.
-        TERMS_MOST: usize = 4, "terms", Convention;
         /// A knot of the friction curve is left out if fewer windows than this are near its speed.
         KNOT_ROWS: f64 = 20.0, "windows", Convention;
-        /// A term smaller than this share of Coulomb and viscous friction is reported as
-        /// negligible.
+        /// A term smaller than this share of Coulomb and viscous friction is not adopted; one of
+        /// the output-error method is reported as negligible.
         NEGLIGIBLE_TERM: f64 = 1e-3, "1", Convention;
     }
 }

@@ -2,9 +2,9 @@
 
 use crate::identify::drive_estimates::DriveEstimates;
 use crate::identify::estimate::{Estimate, ModeEstimate};
-use crate::identify::friction_estimates::Friction;
+use crate::identify::friction_estimates::{Friction, LawEstimates};
 use crate::identify::gravity_estimate::Gravity;
-use crate::identify::methods::friction_law::LawTerm;
+use crate::identify::methods::friction_law::{LawTerm, Speeds};
 use crate::identify::methods::output_error::found::OutputError;
 use crate::identify::methods::output_error::model::describes::{
     accepted_residual, is_left, is_sound,
@@ -13,31 +13,54 @@ use crate::record::{Channels, TipQuantity};
 use crate::replay::{DryTerms, FrictionNumber, ModalArm, Parameter};
 
 impl OutputError {
-    /// Friction, without the damping by the back-EMF of the command.
+    /// Friction, without the damping by the back-EMF of the command. With further terms the line is the law's own Coulomb and
+    /// viscous friction.
     pub fn friction(&self, back_emf_viscous: f64) -> Friction {
+        self.friction_at(back_emf_viscous, None)
+    }
+
+    /// The same with the line that is nearest to the law at some speeds.
+    fn friction_at(&self, back_emf_viscous: f64, speeds: Option<&Speeds>) -> Friction {
         let viscous = |direction: usize| {
             self.estimate_of(|arm| arm.viscous_nm_s_per_rad[direction] - back_emf_viscous)
         };
         let mean = |arm: &ModalArm| Parameter::Viscous.of(arm) - back_emf_viscous;
         let split = self.parameters.contains(&Parameter::ViscousDifference);
-        Friction {
+        let law = LawEstimates {
             coulomb: self.estimate(Parameter::Coulomb),
             forward: Some(self.estimate_of(|arm| arm.coulomb_nm + arm.offset_nm)),
             backward: Some(self.estimate_of(|arm| arm.coulomb_nm - arm.offset_nm)),
-            offset: self.estimate(Parameter::Offset),
             viscous: Some(self.estimate_of(mean)),
             viscous_by_direction: split.then(|| (viscous(0), viscous(1))),
             ..self.terms()
+        };
+        let line = |arm: &ModalArm| -> [f64; 2] {
+            let near = arm.dry_terms.near_rest.zip(speeds);
+            let [level, slope] = near.map_or([0.0; 2], |(near, speeds)| {
+                let share = |speed: f64| near.falloff.share(speed / near.speed_rad_s);
+                speeds.line_of(share).map(|by| by * near.torque_nm)
+            });
+            [arm.coulomb_nm + level, mean(arm) + slope]
+        };
+        let level = |sign: f64| self.estimate_of(|arm| line(arm)[0] + sign * arm.offset_nm);
+        let moved = speeds.is_some() && law.near_rest.is_some();
+        Friction {
+            coulomb: if moved { Some(level(0.0)) } else { law.coulomb },
+            forward: if moved { Some(level(1.0)) } else { law.forward },
+            backward: if moved { Some(level(-1.0)) } else { law.backward },
+            offset: self.estimate(Parameter::Offset),
+            viscous: if moved { Some(self.estimate_of(|arm| line(arm)[1])) } else { law.viscous },
+            law: law.has_terms().then_some(law),
         }
     }
 
     /// Terms of friction other than Coulomb friction, offset and viscous friction.
-    fn terms(&self) -> Friction {
+    fn terms(&self) -> LawEstimates {
         let number = |number: FrictionNumber| self.estimate(Parameter::Friction(number));
         let any = |of: &dyn Fn(&DryTerms) -> f64| self.estimate_of(|arm| of(&arm.dry_terms));
         let near = |arm: &ModalArm| arm.dry_terms.near_rest.map_or(0.0, |n| n.torque_nm);
         let at_rest = || self.estimate_of(|arm| arm.coulomb_nm + near(arm));
-        Friction::of_terms(&self.arm.dry_terms, number, any, at_rest)
+        LawEstimates::of_terms(&self.arm.dry_terms, number, any, at_rest)
     }
 
     /// Terms of friction beyond Coulomb friction and one viscous coefficient, as terms of a law.
@@ -57,6 +80,15 @@ impl OutputError {
 
     /// Friction, inertia and coupling.
     pub fn estimates(&self, channels: &Channels) -> DriveEstimates {
+        self.estimates_at(channels, None)
+    }
+
+    /// The same with the line of friction at some speeds.
+    pub(crate) fn estimates_at(
+        &self,
+        channels: &Channels,
+        speeds: Option<&Speeds>,
+    ) -> DriveEstimates {
         let tips = &channels.tips;
         let known = |i: usize| tips[i].calibrated && tips[i].quantity != TipQuantity::Acceleration;
         let coupling_by_tip = self.arm.coupling_by_tip().map_or(Vec::new(), |found| {
@@ -66,7 +98,7 @@ impl OutputError {
         });
         let flexible = !self.arm.modes.is_empty();
         DriveEstimates {
-            friction: self.friction(channels.command.back_emf_viscous),
+            friction: self.friction_at(channels.command.back_emf_viscous, speeds),
             inertia: self.inertia(),
             coupling: flexible.then(|| self.estimate_of(ModalArm::coupling_nm_per_rad)),
             coupling_by_tip,

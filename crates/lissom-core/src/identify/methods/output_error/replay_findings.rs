@@ -28,7 +28,7 @@ pub(crate) fn findings(evidence: &Evidence<'_>) -> Vec<Finding> {
     };
     let mut findings = Vec::new();
     if oe.stands() {
-        findings.extend(oe.estimate(Parameter::CommandLag).map(|lag| command_lag(campaign, lag)));
+        findings.extend(lag_of(evidence, oe).map(|lag| command_lag(campaign, lag)));
         findings.extend(tip_lags(campaign, oe));
         findings.extend(modes_missing(campaign, oe));
         findings.extend(modes_by_the_motor(campaign, oe));
@@ -45,6 +45,18 @@ pub(crate) fn findings(evidence: &Evidence<'_>) -> Vec<Finding> {
     });
     findings.extend(motions_part(oe));
     findings
+}
+
+/// The lag of the command: that of slip phases, by which the command was late in the replay, with what the replay adds to it.
+fn lag_of(evidence: &Evidence<'_>, oe: &OutputError) -> Option<Estimate> {
+    let by_phases = evidence.methods.friction_law.as_ref().and_then(|law| law.lag);
+    let by_phases = by_phases.filter(|lag| !lag.is_delay_of(evidence.campaign));
+    let own = oe.estimate(Parameter::CommandLag);
+    let first = by_phases.map(|lag| Estimate { value: lag.time_s, std: lag.std_s });
+    match (first, own) {
+        (Some(first), Some(own)) => Some(Estimate { value: first.value + own.value, ..own }),
+        (first, own) => own.or(first),
+    }
 }
 
 /// Windows are shorter than the runs, because neighbouring motions grow apart.
@@ -94,7 +106,7 @@ fn departs(evidence: &Evidence<'_>, oe: &OutputError) -> Option<Finding> {
 
 /// Whether the equation lacks no term, and leaves little more than the noise of a measured command.
 fn command_is_noise(evidence: &Evidence<'_>) -> bool {
-    let alone = |r: &MotorRegression| r.missing.is_none() && r.lag.is_none() && r.left.is_noise();
+    let alone = |r: &MotorRegression| evidence.methods.missing.is_empty() && r.left.is_noise();
     evidence.campaign.channels.command.hold == Hold::Measured
         && evidence.methods.regression.as_ref().is_some_and(alone)
 }
@@ -227,6 +239,7 @@ mod tests {
             modes,
             at_points_per_s: vec![],
             gravity: None,
+            torque_ripples: Vec::new(),
             command_lag_s: 0.0,
             tip_lags_s: vec![],
         };

@@ -1,28 +1,12 @@
 //! A delay of the command as a further term of the motor's equation.
 
 use crate::identify::estimate::Estimate;
-use crate::identify::methods::regression::missing::MissingKind;
 use crate::identify::methods::regression::motor_columns::MotorColumns;
 use crate::identify::methods::regression::normal::{Cluster, Solution, Term, solve};
-use crate::identify::methods::regression::thresholds::WINDOW_SYSTEMATIC;
-
-/// By how much a standard error of a delay of the command moves each term: the delay is estimated, too.
-pub(super) fn changes_by_delay(
-    clusters: &[Cluster],
-    terms: &[Term],
-    columns: &MotorColumns,
-) -> Vec<f64> {
-    let Some(solution) = with_delay(clusters, terms, columns) else {
-        return vec![0.0; terms.len()];
-    };
-    let last = terms.len();
-    let std = solution.covariance[(last, last)].max(f64::MIN_POSITIVE).sqrt();
-    (0..last).map(|i| solution.covariance[(i, last)] / std / WINDOW_SYSTEMATIC).collect()
-}
 
 /// The solution with a delay of the command as the last term.
 fn with_delay(clusters: &[Cluster], terms: &[Term], columns: &MotorColumns) -> Option<Solution> {
-    let delay = Term::Plain(columns.count() + MissingKind::Delay.column());
+    let delay = Term::Plain(columns.count());
     let with: Vec<Term> = terms.iter().copied().chain([delay]).collect();
     solve(clusters, &with)
 }

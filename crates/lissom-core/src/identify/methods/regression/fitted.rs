@@ -17,13 +17,11 @@ pub(crate) struct Fitted<'a> {
     /// Change of each term from the next shorter to the next longer window.
     pub(crate) change: &'a [f64],
     pub(crate) columns: &'a MotorColumns,
-    /// Place of the term of half the difference of viscous friction by direction, where there is one.
-    pub(crate) difference: Option<usize>,
 }
 
 impl Fitted<'_> {
     /// `Σ w_i·q_i` over pairs of a term and its weight; `None` where the logs do not tell it.
-    fn combined(&self, weights: &[(usize, f64)]) -> Option<Estimate> {
+    pub(crate) fn combined(&self, weights: &[(usize, f64)]) -> Option<Estimate> {
         if weights.is_empty() || !self.is_told(weights) {
             return None;
         }
@@ -54,16 +52,13 @@ impl Fitted<'_> {
         !lost || !s.lost.iter().any(moved)
     }
 
-    /// All estimates; with viscous friction by direction where the solution has a term for it.
+    /// All estimates.
     pub(crate) fn estimates(&self, channels: &Channels) -> DriveEstimates {
         let back_emf = channels.command.back_emf_viscous;
         let without_back_emf = |e: Estimate| Estimate { value: e.value - back_emf, std: e.std };
         let viscous = |weights: &[(usize, f64)]| self.combined(weights).map(without_back_emf);
         let single = |i: usize| self.combined(&[(i, 1.0)]);
         let columns = self.columns;
-        let by_direction = self.difference.map(|difference| {
-            [1.0, -1.0].map(|sign| viscous(&[(PLACE_VISCOUS, 1.0), (difference, sign)]))
-        });
         let couplings = columns.couplings();
         let mut coupling_by_tip =
             vec![None; if couplings.is_empty() { 0 } else { channels.tips.len() }];
@@ -77,7 +72,6 @@ impl Fitted<'_> {
             backward: coulomb(-1.0),
             offset: single(PLACE_OFFSET),
             viscous: viscous(&[(PLACE_VISCOUS, 1.0)]),
-            viscous_by_direction: by_direction.and_then(|[f, b]| f.zip(b)),
             ..Friction::default()
         };
         let all: Vec<(usize, f64)> = couplings.map(|i| (i, 1.0)).collect();

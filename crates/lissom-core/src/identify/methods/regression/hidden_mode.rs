@@ -3,18 +3,18 @@
 use nalgebra::{DVector, Matrix3, Vector3};
 
 use crate::identify::estimate::Estimate;
+use crate::identify::methods::friction_law::Moved;
 use crate::identify::methods::regression::left_torque::LeftTorque;
-use crate::identify::methods::regression::missing::{MissingKind, Moved};
 use crate::identify::methods::regression::mode_window::ModeShape;
 use crate::identify::methods::regression::motor_columns::{
-    DRY, ModeColumns, MotorColumns, PLACE_INERTIA, PLACE_VISCOUS, VISCOUS,
+    DRY, ModeColumns, MotorColumns, PLACE_INERTIA, PLACE_VISCOUS,
 };
 use crate::identify::methods::regression::normal::{Cluster, Solution, Term, solve};
 use crate::identify::methods::regression::scan::{Candidate, Scan};
 use crate::identify::methods::regression::sums_by_length::SumsByLength;
 use crate::identify::methods::regression::thresholds::{
-    FEW_PHASES, HIDDEN_MODE_BEATS, HIDDEN_MODE_DAMPED, HIDDEN_MODE_GAINS, HIDDEN_MODE_LEAVES,
-    HIDDEN_MODE_MOVES, HIDDEN_MODE_SHARE, HIDDEN_MODE_SURE, NOISE_ALONE, NOTHING_MISSING,
+    FEW_PHASES, HIDDEN_MODE_DAMPED, HIDDEN_MODE_GAINS, HIDDEN_MODE_LEAVES, HIDDEN_MODE_MOVES,
+    HIDDEN_MODE_SHARE, HIDDEN_MODE_SURE, NOISE_ALONE, NOTHING_MISSING,
 };
 
 /// Share of inertia before the spring if the logs do not identify it: mean and standard deviation of a uniform distribution.
@@ -243,20 +243,5 @@ pub(super) fn shown_mode(without: &SumsByLength<'_>, scanned: &Scan) -> Option<S
     };
     let modes = by_length.iter().enumerate().filter_map(beside);
     let best = modes.min_by(|a, b| a.uncertainty().total_cmp(&b.uncertainty()))?;
-    let beaten = explained_by_one_term(without, best.window_s)?;
-    if best.residual_ratio < HIDDEN_MODE_BEATS * beaten { best.possible() } else { None }
-}
-
-/// Returns the smallest residual with one further term, relative to the residual without it, in windows of one length.
-fn explained_by_one_term(without: &SumsByLength<'_>, length_s: f64) -> Option<f64> {
-    let columns = &without.equation.columns;
-    let terms = columns.terms(Term::Signed(DRY));
-    let residual = without.solved(length_s, &terms)?.relative_residual;
-    let clusters = without.equation.clusters_with_more(length_s, &[]);
-    let one = MissingKind::candidates(columns).chain([vec![Term::Signed(VISCOUS)]]);
-    let left = one.filter_map(|added| {
-        let with: Vec<Term> = terms.iter().chain(&added).copied().collect();
-        Some(solve(&clusters, &with)?.relative_residual)
-    });
-    Some(left.fold(residual, f64::min) / residual)
+    best.possible()
 }

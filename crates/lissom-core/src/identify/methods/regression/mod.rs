@@ -7,10 +7,8 @@ mod extra_delay;
 mod fitted;
 mod hidden_mode;
 mod hold;
-mod lag;
 mod left_out;
 mod left_torque;
-pub(crate) mod missing;
 mod mode_window;
 mod motor;
 mod motor_columns;
@@ -32,16 +30,17 @@ pub(crate) use fitted::Fitted;
 pub use hidden_mode::HiddenMode;
 pub(crate) use hold::other_hold;
 pub use hold::{HoldEvidence, HoldShown, OtherHold, hold_shown};
-pub use lag::{AngleLag, LagShape};
 pub(crate) use left_out::{RunLeftOut, unlike_others};
 pub use left_torque::LeftTorque;
-pub use missing::{MissingKind, MissingTerm, Moved};
 pub(crate) use mode_window::{ModeShape, ModeWindow};
-pub use motor::{ByDirection, MotorRegression, motor_regression};
-pub(crate) use motor_columns::{DRY, MotorColumns, coupled_tips};
+pub use motor::{MotorRegression, motor_regression};
+pub(crate) use motor_columns::{
+    MotorColumns, PLACE_COULOMB, PLACE_INERTIA, PLACE_OFFSET, PLACE_VISCOUS, coupled_tips,
+};
 pub(crate) use motor_rows::{ModeTerms, MotorEquation, SineAndCosine};
 pub(crate) use normal::{
-    Cluster, NormalSums, Rows, ScoredEstimates, Scores, Solution, Term, solve, solve_sums, values,
+    Cluster, NormalSums, Rows, ScoredEstimates, Scores, Solution, Term, solve, solve_sums,
+    values_of,
 };
 pub(crate) use phases::{Phase, SMOOTHING_LEAST, needed_smoothing, slip_sign, smoothing};
 pub(crate) use regression_findings::{findings, reversed_tip};

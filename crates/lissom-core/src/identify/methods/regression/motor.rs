@@ -8,35 +8,26 @@ use crate::identify::drive_estimates::DriveEstimates;
 use crate::identify::estimate::Estimate;
 use crate::identify::friction_estimates::Friction;
 use crate::identify::gravity_estimate::Gravity;
+use crate::identify::methods::friction_law::{Moved, widened};
 use crate::identify::methods::regression::cluster_covariance::larger;
-use crate::identify::methods::regression::extra_delay::{changes_by_delay, extra_delay};
+use crate::identify::methods::regression::extra_delay::extra_delay;
 use crate::identify::methods::regression::fitted::Fitted;
 use crate::identify::methods::regression::hidden_mode::{HiddenMode, ShownMode, shown_mode};
-use crate::identify::methods::regression::lag::{AngleLag, LagShape, angle_lag};
 use crate::identify::methods::regression::left_out::{RunLeftOut, rms_speed, runs_left_out};
 use crate::identify::methods::regression::left_torque::LeftTorque;
-use crate::identify::methods::regression::missing::{
-    MissingKind, MissingTerm, Moved, missing_term,
-};
 use crate::identify::methods::regression::motor_columns::{
-    DRY, MotorColumns, PLACE_COULOMB, PLACE_INERTIA, PLACE_OFFSET, PLACE_VISCOUS, VISCOUS,
+    DRY, PLACE_COULOMB, PLACE_INERTIA, PLACE_OFFSET, PLACE_VISCOUS,
 };
 use crate::identify::methods::regression::motor_rows::MotorRows;
 use crate::identify::methods::regression::normal::{Cluster, Solution, Term};
-use crate::identify::methods::regression::scan::{Candidate, RATIO, Scan, change};
+use crate::identify::methods::regression::scan::{Candidate, RATIO, Scan};
 use crate::identify::methods::regression::sums_by_length::SumsByLength;
 use crate::identify::methods::regression::terms::Terms;
-use crate::identify::methods::regression::thresholds::{
-    FEW_PHASES, LONGER_WINDOW, USUAL_VARIATION,
-};
+use crate::identify::methods::regression::thresholds::{FEW_PHASES, USUAL_VARIATION};
 use crate::identify::options::Options;
 use crate::identify::prepare::prepared::Prepared;
 use crate::identify::prepare::run_noise::RunNoise;
-use crate::identify::thresholds::{CLEARLY_PRESENT, RESIDUAL_FALLS_TO};
-use crate::record::{Campaign, Channels, Run};
-
-/// A lag is found in at most this many rounds, each corrected by the delay that the equation lacks in the one before.
-const LAG_ROUNDS: usize = 3;
+use crate::record::{Campaign, Run};
 
 /// Estimates from the motor's equation, in torque (or force) according to the torque constant of the command.
 #[derive(Debug, Clone, PartialEq)]
@@ -72,16 +63,10 @@ pub struct MotorRegression {
     pub coupling: Vec<Option<Estimate>>,
     /// Gravity, if the campaign has it.
     pub gravity: Option<Gravity>,
-    /// The fit with viscous friction by direction, if the data reject one constant.
-    pub viscous_by_direction: Option<ByDirection>,
-    /// A term that the equation lacks, if the data require one.
-    pub missing: Option<MissingTerm>,
     /// A flexible mode that no tip measures and that the estimates take into account.
     pub mode: Option<HiddenMode>,
     /// Composition of the residual torque.
     pub left: LeftTorque,
-    /// Lag of the angle behind the command that the estimates take into account.
-    pub lag: Option<AngleLag>,
     /// Delay of the command in addition to the terms of the equation \[s\], with the channels as they are logged; `None` if the
     /// logs do not show it.
     pub delay: Option<Estimate>,
@@ -93,22 +78,9 @@ pub struct MotorRegression {
     pub(crate) left_out: Vec<RunLeftOut>,
     /// The same in windows of which each run has some.
     pub(crate) beside_others: Vec<RunLeftOut>,
+    /// The same with a flexible mode that no tip measures, if slip phases may show one.
+    pub(crate) with_mode: Option<Box<MotorRegression>>,
     /// J, V, CF, offset, κ_i of the tips whose angle is known, g_s and g_c, as the logs have them.
-    pub(crate) terms: Terms,
-}
-
-/// The fit of the same equation with viscous friction by direction.
-#[derive(Debug, Clone, PartialEq)]
-pub struct ByDirection {
-    /// Length of its windows \[s\].
-    pub window_s: f64,
-    /// All estimates of this fit.
-    pub estimates: DriveEstimates,
-    /// Relative residual ‖y − X·q‖/‖y‖ of this fit \[1\].
-    pub relative_residual: f64,
-    /// Relative residual with one viscous constant, in the same windows \[1\].
-    pub relative_residual_of_one: f64,
-    /// J, V, CF, offset, κ_i of the tips, g_s and g_c, and half the difference of viscous friction forward and backward.
     pub(crate) terms: Terms,
 }
 
@@ -146,36 +118,7 @@ pub struct ByDirection {
 /// (`docs/src/theory/regression.md`).
 pub fn motor_regression(prepared: &Prepared<'_>, options: &Options) -> Option<MotorRegression> {
     // Many short loops: within the pool none of them has to wake it first.
-    rayon::scope(|_| {
-        let (campaign, noise) = (prepared.used(), prepared.noise());
-        let mut found = on_slip_phases(campaign, noise, &options.window_s, None)?;
-        let delay =
-            |found: &MotorRegression| found.missing.filter(|m| m.kind == MissingKind::Delay);
-        let as_logged = found.delay;
-        let mut lag = delay(&found).and_then(|missing| angle_lag(campaign, noise, &missing));
-        // With the command as late as the angle the equation holds; a delay that it still lacks corrects the lag.
-        for _ in 0..LAG_ROUNDS {
-            let Some(now) = lag else { break };
-            let late = on_slip_phases(&now.late(campaign), noise, &options.window_s, Some(now));
-            let Some(late) = late else { break };
-            if is_impossible(&late, &found) {
-                break;
-            }
-            found = late;
-            lag = delay(&found).map(|missing| now.longer_by(missing.value));
-        }
-        found.delay = as_logged;
-        Some(found)
-    })
-}
-
-/// Whether a lag makes the inertia negative, or viscous friction drive the motor more than without it: then it is no lag.
-fn is_impossible(late: &MotorRegression, without: &MotorRegression) -> bool {
-    let value = |e: Option<Estimate>| e.map_or(0.0, |e| e.value);
-    let is_negative = |e: Option<Estimate>| e.is_some_and(|e| e.is_negative());
-    let drives = is_negative(late.viscous) && value(late.viscous) < value(without.viscous);
-    // All is negative if the command has the other sign.
-    !is_negative(without.inertia) && (drives || is_negative(late.inertia))
+    rayon::scope(|_| on_slip_phases(prepared.used(), prepared.noise(), &options.window_s))
 }
 
 /// Repeats the regression without each run in turn: in windows of the chosen length, and, if some runs have none of these, in the
@@ -201,12 +144,10 @@ fn without_each_run(sums: &SumsByLength<'_>, scanned: &Scan) -> [Vec<RunLeftOut>
     [left_out, beside_others]
 }
 
-/// The same of a campaign whose commands were made late by a `lag`, if by any; the standard errors count the lag's.
 fn on_slip_phases(
     campaign: &Campaign,
     noise: &[RunNoise],
     window_s: &[f64],
-    lag: Option<AngleLag>,
 ) -> Option<MotorRegression> {
     let as_logged = MotorRows::of(campaign, noise);
     let sums = SumsByLength::of(&as_logged);
@@ -219,27 +160,32 @@ fn on_slip_phases(
     // A log does not show the motion of a mode above its Nyquist frequency.
     let is_logged = |mode: &ShownMode| mode.shape.omega_rad_s * sample_time < PI;
     let shown = shown_mode(&sums, &found).filter(is_logged);
-    let flexible = shown.as_ref().map(|mode| rigid.with_mode(mode.shape));
-    let with_mode = flexible.as_ref().zip(shown.as_ref()).and_then(|(rows, mode)| {
-        let sums = SumsByLength::of_mode(rows, mode.shapes_beside());
-        let found = sums.scan(sample_time, window_s)?;
-        Some((sums, found))
+    let with_mode = shown.and_then(|mode| {
+        let rows = rigid.with_mode(mode.shape);
+        let sums = SumsByLength::of_mode(&rows, mode.shapes_beside());
+        let without = found.solution.clone();
+        let found = of_scan(campaign, &sums, sums.scan(sample_time, window_s)?, window_s);
+        let moves = Moved::between(&without, &found.terms.values);
+        Some(Box::new(MotorRegression { mode: Some(mode.report(moves)), ..found }))
     });
-    let shown = shown.filter(|_| with_mode.is_some());
-    let rigid_solution = found.solution.clone();
-    let (sums, found) = with_mode.unwrap_or((sums, found));
+    let found = of_scan(campaign, &sums, found, window_s);
+    Some(MotorRegression { left_out, beside_others, with_mode, ..found })
+}
+
+/// The estimates in the windows that a scan chose.
+fn of_scan(
+    campaign: &Campaign,
+    sums: &SumsByLength<'_>,
+    found: Scan,
+    window_s: &[f64],
+) -> MotorRegression {
     let equation = sums.equation;
     let columns = &equation.columns;
     let terms = columns.terms(Term::Signed(DRY));
     let chosen = &found.candidates[found.chosen];
     let (channels, window_s_chosen) = (&campaign.channels, chosen.window_s);
     let phases = equation.phases(window_s_chosen);
-    let with_more = |length: f64| -> Option<(Vec<Cluster>, Solution)> {
-        let without = sums.solved(length, &terms)?;
-        let known: Vec<f64> = columns.couplings().map(|i| without.value[i]).collect();
-        Some((equation.clusters_with_more(length, &known), without))
-    };
-    let (clusters, _) = with_more(window_s_chosen)?;
+    let clusters = equation.clusters_with_delay(window_s_chosen);
     let mut solution = found.solution;
     if phases < FEW_PHASES {
         // Of few strokes the window with the least scatter is in part one whose scatter came out small.
@@ -251,28 +197,10 @@ fn on_slip_phases(
         solution.covariance += of_usual_variation(&clusters, &terms, &solution);
     }
     let solution = &solution;
-    let mut change = found.change.clone();
-    if lag.is_some() {
-        let by_lag = changes_by_delay(&clusters, &terms, columns);
-        change.iter_mut().zip(by_lag).for_each(|(c, by_lag)| *c = c.signum() * c.hypot(by_lag));
-    }
-    let one = Fitted { solution, change: &change, columns, difference: None };
+    let one = Fitted { solution, change: &found.change, columns };
     let DriveEstimates { friction, inertia, coupling: total_coupling, coupling_by_tip, gravity } =
         one.estimates(channels);
-    let missing_in = |clusters: &[Cluster], without: &Solution, length: f64| {
-        missing_term(clusters, &terms, without, (columns, campaign), length)
-    };
-    let missing = missing_in(&clusters, solution, window_s_chosen).or_else(|| {
-        // Noise makes less of the residual in longer windows.
-        let length = LONGER_WINDOW * window_s_chosen;
-        let many = window_s.is_empty() && equation.phases(length) >= FEW_PHASES;
-        let (clusters, without) = many.then(|| with_more(length)).flatten()?;
-        missing_in(&clusters, &without, length)
-    });
     let left = LeftTorque::of(&clusters, &terms, solution);
-    let missing = missing.filter(|m| m.is_beyond(&left));
-    // A few strokes are too much alike to separate a lag from other causes.
-    let missing = missing.filter(|m| m.kind != MissingKind::Delay || phases >= FEW_PHASES);
     let from_chosen =
         || found.candidates.iter().map(|c| c.window_s).filter(|l| *l >= window_s_chosen);
     // Noise of the command averages out in longer windows; friction that wanders does not.
@@ -282,9 +210,7 @@ fn on_slip_phases(
     };
     let short_by = || from_chosen().filter_map(share).fold(f64::INFINITY, f64::min);
     let inertia_short_by = turn_one_way(&clusters).then(short_by);
-    let viscous_by_direction =
-        from_chosen().find_map(|length| by_direction(channels, columns, &terms, length, &sums));
-    Some(MotorRegression {
+    MotorRegression {
         window_s: chosen.window_s,
         window_given: !window_s.is_empty(),
         rows: chosen.rows,
@@ -299,18 +225,16 @@ fn on_slip_phases(
         total_coupling,
         coupling: coupling_by_tip,
         gravity,
-        viscous_by_direction,
-        missing,
-        mode: shown.map(|mode| mode.report(Moved::between(&rigid_solution, solution))),
+        mode: None,
         left,
-        lag,
         delay: extra_delay(&clusters, &terms, columns),
         inertia_short_by,
-        left_out,
-        beside_others,
+        left_out: Vec::new(),
+        beside_others: Vec::new(),
+        with_mode: None,
         terms: Terms::of(&one),
         candidates: found.candidates,
-    })
+    }
 }
 
 /// What friction that varies from one slip phase to the next as much as usual adds to the covariance: few phases do not show
@@ -346,22 +270,30 @@ fn of_usual_variation(clusters: &[Cluster], terms: &[Term], solution: &Solution)
 }
 
 impl MotorRegression {
-    /// By how much friction changes from one slip phase to the next, as a share of Coulomb friction, where nothing else
-    /// explains what the equation leaves.
+    /// By how much friction changes from one slip phase to the next, as a share of Coulomb friction.
     pub(crate) fn varies_by(&self) -> Option<f64> {
-        let otherwise = self.missing.is_some() || self.lag.is_some();
-        (!otherwise && self.left.is_between_phases()).then_some(self.left.varies_by)
+        self.left.is_between_phases().then_some(self.left.varies_by)
     }
 
-    /// The lag where it may be a delay of the command.
-    pub(crate) fn delay_lag(&self) -> Option<AngleLag> {
-        self.lag.filter(|lag| lag.shape != LagShape::Filter)
-    }
-
-    /// The same as a delay \[s\], of a filter the one that it has at low frequencies.
-    pub(crate) fn lag_s(&self) -> Option<Estimate> {
-        let lag = self.lag?;
-        Some(Estimate { value: lag.time_s, std: self.delay.map_or(0.0, |delay| delay.std) })
+    /// Counts what terms that are not known to be absent would change: `moves` of the terms of the equation.
+    pub(crate) fn widened(mut self, moves: &[Vec<f64>]) -> Self {
+        let columns = self.terms.columns.clone();
+        let by = |e: &mut Option<Estimate>, weights: &[(usize, f64)]| {
+            let of = |m: &Vec<f64>| weights.iter().map(|(i, w)| w * m[*i]).sum();
+            *e = e.map(|e| widened(e, moves, of));
+        };
+        by(&mut self.inertia, &[(PLACE_INERTIA, 1.0)]);
+        by(&mut self.viscous, &[(PLACE_VISCOUS, 1.0)]);
+        by(&mut self.coulomb, &[(PLACE_COULOMB, 1.0)]);
+        by(&mut self.offset, &[(PLACE_OFFSET, 1.0)]);
+        by(&mut self.forward, &[(PLACE_COULOMB, 1.0), (PLACE_OFFSET, 1.0)]);
+        by(&mut self.backward, &[(PLACE_COULOMB, 1.0), (PLACE_OFFSET, -1.0)]);
+        let couplings: Vec<(usize, f64)> = columns.couplings().map(|i| (i, 1.0)).collect();
+        by(&mut self.total_coupling, &couplings);
+        for (place, tip) in columns.couplings().zip(&columns.tips) {
+            by(&mut self.coupling[*tip], &[(place, 1.0)]);
+        }
+        self
     }
 
     /// The estimates with one viscous coefficient.
@@ -408,42 +340,6 @@ impl MotorRegression {
         }
         (power > 0.0).then(|| (left.max(0.0) / power).sqrt())
     }
-}
-
-/// The fit with viscous friction by direction in windows of a length, if the data call for it there: in the windows that
-/// tell the estimates best noise may be most of the residual, and in longer ones it is less.
-fn by_direction(
-    channels: &Channels,
-    columns: &MotorColumns,
-    terms: &[Term],
-    window_s: f64,
-    sums: &SumsByLength<'_>,
-) -> Option<ByDirection> {
-    let mut split = terms.to_vec();
-    split.push(Term::Signed(VISCOUS));
-    let difference = terms.len();
-    let one = sums.solved(window_s, terms)?;
-    let two = sums.solved(window_s, &split)?;
-    if [PLACE_VISCOUS, PLACE_OFFSET, difference].iter().any(|i| two.inseparable[*i]) {
-        return None;
-    }
-    let deviation = two.covariance[(difference, difference)].max(0.0).sqrt();
-    let called_for = two.value[difference].abs() > CLEARLY_PRESENT * deviation
-        && two.relative_residual < RESIDUAL_FALLS_TO * one.relative_residual;
-    if !called_for {
-        return None;
-    }
-    let [shorter, longer] =
-        [window_s / RATIO, window_s * RATIO].map(|length| sums.solved(length, &split));
-    let change = change(shorter.as_ref(), &two, longer.as_ref());
-    let fitted = Fitted { solution: &two, change: &change, columns, difference: Some(difference) };
-    Some(ByDirection {
-        window_s,
-        estimates: fitted.estimates(channels),
-        relative_residual: two.relative_residual,
-        relative_residual_of_one: one.relative_residual,
-        terms: Terms::of(&fitted),
-    })
 }
 
 /// Whether each run turns one way.

@@ -7,9 +7,8 @@ use std::sync::Arc;
 use nalgebra::DMatrix;
 use rayon::iter::{IndexedParallelIterator, IntoParallelRefIterator, ParallelIterator};
 
-use crate::identify::methods::regression::missing::MissingKind;
 use crate::identify::methods::regression::mode_window::{Derivatives, ModeShape, ModeWindow};
-use crate::identify::methods::regression::motor_columns::{DRY, INERTIA, MotorColumns, VISCOUS};
+use crate::identify::methods::regression::motor_columns::{INERTIA, MotorColumns, VISCOUS};
 use crate::identify::methods::regression::normal::{Cluster, Rows};
 use crate::identify::methods::regression::phases::{
     LEAST_SMOOTH, Phase, SMOOTHING_LEAST, unreversed_phases,
@@ -18,10 +17,7 @@ use crate::identify::methods::regression::row_noise::{ChannelPart, products};
 use crate::identify::methods::regression::thresholds::{BLOCKS_WANTED, FEW_PHASES, SURE_SIGN};
 use crate::identify::methods::regression::window::{SMOOTHED_PART, WINDOW_STEP, Weights, Window};
 use crate::identify::prepare::run_noise::RunNoise;
-use crate::record::{Campaign, Hold, Run, TipQuantity};
-
-/// Columns that [`super::missing::missing_term`] tries.
-const EXTRA: usize = MissingKind::COLUMNS;
+use crate::record::{Campaign, CommandQuantity, Hold, Run, TipQuantity};
 
 /// The motor's equation on the windows of all runs.
 pub(super) struct MotorRows<'a> {
@@ -92,30 +88,29 @@ impl<'a> MotorRows<'a> {
 
     /// Sums of every slip phase of every run, for one length of window.
     pub(super) fn clusters(&self, length_s: f64) -> Vec<Cluster> {
-        self.of_runs(length_s, None)
+        self.of_runs(length_s, false)
     }
 
-    /// The same, with the columns of [`super::missing::missing_term`] before the right side, `coupling` what the tips'
-    /// couplings are known as.
-    pub(super) fn clusters_with_more(&self, length_s: f64, coupling: &[f64]) -> Vec<Cluster> {
-        self.of_runs(length_s, Some(coupling))
+    /// The same, with the column `∫ẇτ` of a later command before the right side.
+    pub(super) fn clusters_with_delay(&self, length_s: f64) -> Vec<Cluster> {
+        self.of_runs(length_s, true)
     }
 
-    fn of_runs(&self, length_s: f64, more: Option<&[f64]>) -> Vec<Cluster> {
+    fn of_runs(&self, length_s: f64, with_delay: bool) -> Vec<Cluster> {
         let windows =
             Window::of_runs(&self.campaign.runs, length_s, |index, n| self.runs[index].may_hold(n));
         let of_run = |(index, window): (usize, &Option<Arc<Window>>)| {
-            window.as_ref().map_or_else(Vec::new, |w| self.of_run(index, w, more))
+            window.as_ref().map_or_else(Vec::new, |w| self.of_run(index, w, with_delay))
         };
         windows.par_iter().with_max_len(1).enumerate().flat_map_iter(of_run).collect()
     }
 
-    fn of_run(&self, index: usize, window: &Window, more: Option<&[f64]>) -> Vec<Cluster> {
+    fn of_run(&self, index: usize, window: &Window, with_delay: bool) -> Vec<Cluster> {
         let (campaign, slipping) = (self.campaign, &self.runs[index]);
         let (run, n) = (slipping.run, window.len());
-        let columns = self.columns.count() + 1 + more.map_or(0, |_| EXTRA);
+        let columns = self.columns.count() + 1 + usize::from(with_delay);
         let step = ((n as f64 * WINDOW_STEP) as usize).max(1);
-        let (phases, smooth) = slipping.phases(n);
+        let (phases, _) = slipping.phases(n);
         let t = run.sample_time_s();
         let derivatives = self.columns.mode.then(|| Derivatives::of(window, t));
         let known = self.mode.map(|shape| ModeWindow::of(window, shape, t));
@@ -127,27 +122,18 @@ impl<'a> MotorRows<'a> {
             window,
             mode: ModeTerms::of(known.as_ref(), derivatives.as_ref()),
         };
-        let origin = campaign.runs.first().map_or(0.0, |run| run.motor()[0]);
-        let with_more = more.map(|coupling| WithMore {
-            plain,
-            origin,
-            slowness: slowness(run, smooth),
-            magnitude: run.command().iter().map(|u| u.abs()).collect(),
-            elapsed: Elapsed::of(campaign, index),
-            coupling,
-            waves: SineAndCosine::of(run.motor()),
-        });
         let of_run = &RunNoise {
             command: self.command_noise * slipping.noise.command,
             ..slipping.noise.clone()
         };
-        let noise = plain.noise(of_run, more.map_or(0, |_| EXTRA));
+        let noise = plain.noise(of_run, usize::from(with_delay));
         let cluster = |(phase, part): (&Phase, Range<usize>)| {
             let mut cluster = Cluster::new(index, phase.sign, columns);
             let windows = part.step_by(step);
-            match &with_more {
-                Some(rows) => cluster.add_windows(windows, rows, &noise),
-                None => cluster.add_windows(windows, &plain, &noise),
+            if with_delay {
+                cluster.add_windows(windows, &WithDelay(plain), &noise);
+            } else {
+                cluster.add_windows(windows, &plain, &noise);
             }
             if let Some(mode) = self.columns.of_mode() {
                 cluster.take_out_noise_of_right(mode.torque_twice);
@@ -292,7 +278,8 @@ impl Rows for MotorEquation<'_> {
 }
 
 impl MotorEquation<'_> {
-    /// What noise adds to a row's products, in expectation; none in the `further` columns before the right side.
+    /// What noise adds to a row's products, in expectation; of the `further` columns before the right side the first is
+    /// that of a later torque, and the others have none.
     pub(crate) fn noise(&self, of_run: &RunNoise, further: usize) -> DMatrix<f64> {
         let window = self.window;
         let [inertia, viscous] = self.of_angle();
@@ -311,6 +298,9 @@ impl MotorEquation<'_> {
         let count = self.columns.count() + further + 1;
         let command = &self.campaign.channels.command;
         let mut of_command: Vec<ChannelPart<'_>> = vec![(count - 1, self.of_torque().0, 1.0)];
+        if further > 0 {
+            of_command.push((self.columns.count(), &window.first, 1.0));
+        }
         if let (Some(place), ModeTerms::Sought(weights)) = (self.columns.of_mode(), self.mode) {
             of_motor.push((place.fourth, &weights.fourth, 1.0));
             of_motor.push((place.third, &weights.third, -1.0));
@@ -366,10 +356,17 @@ impl MotorEquation<'_> {
             }
     }
 
-    /// `∫ẇτ`: what a torque that acts later leaves, by its delay.
+    /// `∫ẇτ`: what a torque that acts later leaves, by its delay. Of a servo the goal alone acts later: `∫ẇ·gain·goal`.
     #[inline(always)]
     pub(crate) fn later(&self, k: usize) -> f64 {
-        self.torque_by(&self.window.first, &self.window.rise, &self.run.command()[k..])
+        let late = self.torque_by(&self.window.first, &self.window.rise, &self.run.command()[k..]);
+        let command = &self.campaign.channels.command;
+        if command.quantity != CommandQuantity::PositionError {
+            return late;
+        }
+        let motor = &self.run.motor()[k..];
+        let angle = self.window.first.dot_from(motor, motor[0]) * self.run.sample_time_s();
+        late + command.torque_per_unit() * angle
     }
 }
 
@@ -398,79 +395,13 @@ pub(super) fn behind(campaign: &Campaign, run: &Run, i: usize, window: &Window, 
         }
 }
 
-/// `[∫ẇτ, ∫wθ, ∫w·e^{−|v|/v̄}, Σκ_i∫w(θ̇_m − θ̇_i), ∫w|τ|, e∫w, −e∫ẇθ, ∫w·sin θ, ∫w·cos θ]` before the right side, e how
-/// much of the campaign is over.
-struct WithMore<'a> {
-    plain: MotorEquation<'a>,
-    /// Where positions are counted from.
-    origin: f64,
-    slowness: Vec<f64>,
-    /// |command|.
-    magnitude: Vec<f64>,
-    elapsed: Elapsed,
-    /// κ_i of the coupled tips.
-    coupling: &'a [f64],
-    waves: SineAndCosine,
-}
+/// `∫ẇτ` before the right side.
+struct WithDelay<'a>(MotorEquation<'a>);
 
-impl Rows for WithMore<'_> {
+impl Rows for WithDelay<'_> {
     #[inline(always)]
     fn fill(&self, k: usize, row: &mut Vec<f64>) {
-        let MotorEquation { run, window, .. } = self.plain;
-        let t = run.sample_time_s();
-        let by_position = window.value.dot_from(&run.motor()[k..], self.origin);
-        let by_slowness = window.value.dot(&self.slowness[k..]);
-        let coupling = self.coupling.iter().enumerate();
-        let by_rate = coupling.map(|(i, c)| c * self.plain.behind_rate(i, k)).sum::<f64>();
-        let by_size = self.plain.torque(&self.magnitude[k..]);
-        let elapsed = self.elapsed.at(k + window.len() / 2);
-        self.plain.fill(k, row);
-        let scale = window.row_scale;
-        let more = [
-            self.plain.later(k) * scale,
-            by_position * t * scale,
-            by_slowness * t * scale,
-            by_rate * scale,
-            by_size * scale,
-            elapsed * row[DRY],
-            elapsed * row[VISCOUS],
-            window.value.dot(&self.waves.0[0][k..]) * t * scale,
-            window.value.dot(&self.waves.0[1][k..]) * t * scale,
-        ];
-        let right = row.len() - 1;
-        row.splice(right..right, more);
+        self.0.fill(k, row);
+        row.insert(row.len() - 1, self.0.later(k) * self.0.window.row_scale);
     }
-}
-
-/// How much of a campaign is over, from −½ at its first sample to ½ at its last, its runs one after the other.
-struct Elapsed {
-    start: f64,
-    of_sample: f64,
-}
-
-impl Elapsed {
-    fn of(campaign: &Campaign, run: usize) -> Self {
-        let lasts = |run: &Run| run.len() as f64 * run.sample_time_s();
-        let all: f64 = campaign.runs.iter().map(lasts).sum();
-        let before: f64 = campaign.runs[..run].iter().map(lasts).sum();
-        Self { start: before / all - 0.5, of_sample: campaign.runs[run].sample_time_s() / all }
-    }
-
-    fn at(&self, sample: usize) -> f64 {
-        self.start + sample as f64 * self.of_sample
-    }
-}
-
-/// `e^{−|v|/v̄}` at every sample, v̄ the run's mean speed.
-fn slowness(run: &Run, smooth: usize) -> Vec<f64> {
-    let x = run.motor();
-    let last = x.len() - 1;
-    let speed: Vec<f64> = (0..x.len())
-        .map(|k| {
-            let (from, to) = (k.saturating_sub(smooth / 2), (k + smooth / 2).min(last));
-            ((x[to] - x[from]) / (to - from).max(1) as f64).abs()
-        })
-        .collect();
-    let mean = speed.iter().sum::<f64>() / speed.len() as f64;
-    speed.iter().map(|v| (-v / mean.max(f64::MIN_POSITIVE)).exp()).collect()
 }

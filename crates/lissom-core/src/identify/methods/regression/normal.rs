@@ -7,6 +7,9 @@ use crate::identify::methods::regression::thresholds::{
     FEW_CLUSTERS, INSEPARABLE_WEIGHT, MOTION_LEAST, NOISE_FILLS, SAME_COLUMN,
 };
 
+/// Smallest pivot of scaled normal equations that a Cholesky factor is trusted with.
+const PIVOT_LEAST: f64 = 1e-4;
+
 /// Products of the columns `[x_1 … x_p, y]`, summed over the rows of one cluster.
 #[derive(Debug, Clone)]
 pub(crate) struct Cluster {
@@ -101,26 +104,12 @@ pub(crate) enum Term {
     Plain(usize),
     /// Times the direction of slip.
     Signed(usize),
-    /// In forward phases only.
-    Forward(usize),
-    /// In backward phases only.
-    Backward(usize),
 }
 
 impl Term {
     pub(crate) fn column(self) -> usize {
         match self {
-            Self::Plain(c) | Self::Signed(c) | Self::Forward(c) | Self::Backward(c) => c,
-        }
-    }
-
-    /// The same of another column.
-    pub(crate) fn at(self, column: usize) -> Self {
-        match self {
-            Self::Plain(_) => Self::Plain(column),
-            Self::Signed(_) => Self::Signed(column),
-            Self::Forward(_) => Self::Forward(column),
-            Self::Backward(_) => Self::Backward(column),
+            Self::Plain(c) | Self::Signed(c) => c,
         }
     }
 
@@ -128,8 +117,6 @@ impl Term {
         match self {
             Self::Plain(_) => 1.0,
             Self::Signed(_) => sign,
-            Self::Forward(_) => f64::from(sign > 0.0),
-            Self::Backward(_) => f64::from(sign < 0.0),
         }
     }
 }
@@ -168,6 +155,17 @@ pub(crate) struct NormalSums {
 }
 
 impl NormalSums {
+    /// Of products and noise that were summed elsewhere; `None` without rows or a right side of zero.
+    pub(crate) fn new(
+        normal: DMatrix<f64>,
+        noise: DMatrix<f64>,
+        right: DVector<f64>,
+        power: f64,
+        rows: usize,
+    ) -> Option<Self> {
+        (rows > 0 && power > 0.0).then_some(Self { normal, noise, right, power, rows })
+    }
+
     /// From the clusters' sums; `None` without rows or a right side of zero.
     pub(crate) fn of(clusters: &[Cluster], terms: &[Term]) -> Option<Self> {
         let p = terms.len();
@@ -191,11 +189,6 @@ impl NormalSums {
             }
         }
         Some(Self { normal, noise, right, power, rows })
-    }
-
-    /// ‖y − X·q‖/‖y‖ of the least-squares solution.
-    pub(crate) fn relative_residual(&self) -> Option<f64> {
-        Some(self.relative_residual_of(&Solved::of(self)?.value))
     }
 
     fn relative_residual_of(&self, value: &DVector<f64>) -> f64 {
@@ -254,6 +247,22 @@ pub(crate) fn solve(clusters: &[Cluster], terms: &[Term]) -> Option<Solution> {
 /// The estimates of [`solve`] alone.
 pub(crate) fn values(clusters: &[Cluster], terms: &[Term]) -> Option<DVector<f64>> {
     Some(Solved::of(&NormalSums::of(clusters, terms)?)?.value)
+}
+
+/// The least-squares solution of normal equations alone.
+///
+/// Where noise is a small part of all products, its expectation is subtracted and a Cholesky factor solves the rest;
+/// otherwise as in [`solve`].
+pub(crate) fn values_of(sums: &NormalSums) -> Option<DVector<f64>> {
+    let scale = sums.normal.diagonal().map(|v| 1.0 / v.max(f64::MIN_POSITIVE).sqrt());
+    let p = scale.len();
+    let scaled = |m: &DMatrix<f64>| DMatrix::from_fn(p, p, |i, j| m[(i, j)] * scale[i] * scale[j]);
+    let factor = scaled(&(&sums.normal - &sums.noise)).cholesky();
+    let well = factor.filter(|f| f.l_dirty().diagonal().iter().all(|d| *d > PIVOT_LEAST));
+    match well {
+        Some(factor) => Some(factor.solve(&sums.right.component_mul(&scale)).component_mul(&scale)),
+        None => Some(Solved::of(sums)?.value),
+    }
 }
 
 /// Normal equations solved, and what the covariance is made of.

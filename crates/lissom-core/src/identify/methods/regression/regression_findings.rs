@@ -6,9 +6,8 @@ use crate::identify::findings::{BeamFinding, EstimateUnits, Finding, RegressionF
 use crate::identify::gravity_estimate::Gravity;
 use crate::identify::identified::torque_constant;
 use crate::identify::judge::{Chosen, Evidence};
-use crate::identify::methods::friction_law::FrictionLaw;
-use crate::identify::methods::regression::missing::{MissingKind, MissingTerm};
-use crate::identify::methods::regression::motor::{ByDirection, MotorRegression};
+use crate::identify::methods::friction_law::{MissingKind, MissingTerm};
+use crate::identify::methods::regression::motor::MotorRegression;
 use crate::identify::methods::regression::thresholds::{
     CONSTANT_DOUBTED, FEW_PHASES, GRAVITY_KNOWN, INERTIA_SHORT, USUAL_VARIATION,
 };
@@ -29,7 +28,7 @@ pub(crate) fn findings(evidence: &Evidence<'_>, chosen: &Chosen) -> Vec<Finding>
         }
         // A load may be most of the torque.
         let gravity = |m: &MissingTerm| m.kind == MissingKind::Gravity;
-        let missing = evidence.methods.regression_missing.filter(gravity);
+        let missing = evidence.methods.missing.iter().copied().find(gravity);
         let term = |term| Finding::new(RegressionFinding::MissingTerm { term, units });
         findings.extend(missing.map(term));
         let residual_share = evidence.methods.regression_residual;
@@ -56,33 +55,21 @@ pub(crate) fn findings(evidence: &Evidence<'_>, chosen: &Chosen) -> Vec<Finding>
     if !explained && is_one_sine(evidence.runs, r) {
         findings.push(Finding::new(RegressionFinding::OneSine));
     }
-    // A fit that was taken in place of this one says more than the one term that was tried for it.
-    let split = chosen.method == Some(Method::RegressionByDirection);
-    let law = evidence.methods.friction_law.as_ref().filter(|law| law.chosen.departs());
-    let said = |m: &MissingTerm| match m.kind {
-        MissingKind::Delay => r.lag.is_some() || law.is_some_and(FrictionLaw::leaves_no_lag),
-        MissingKind::Position
-        | MissingKind::Gravity
-        | MissingKind::BeamDamping
-        | MissingKind::CoulombDrift
-        | MissingKind::ViscousDrift => false,
-        MissingKind::CommandBySign => split || law.is_some(),
-        MissingKind::Stribeck => law.is_some(),
-    };
-    if let Some(lag) = r.lag.filter(|_| !explained) {
+    let law = evidence.methods.friction_law.as_ref();
+    let departs = law.is_some_and(|law| law.chosen.departs());
+    if let Some(lag) = law.and_then(|law| law.lag).filter(|_| !explained) {
         findings.push(Finding::new(RegressionFinding::AngleLag { lag }));
     }
     if let Some(mode) = r.mode.filter(|_| !explained) {
         findings.push(Finding::new(RegressionFinding::HiddenMode { mode }));
     }
-    if let Some(term) = r.missing.filter(|m| !explained && !said(m)) {
-        findings.push(Finding::new(RegressionFinding::MissingTerm { term, units }));
+    for term in evidence.methods.missing.iter().filter(|_| !explained) {
+        findings.push(Finding::new(RegressionFinding::MissingTerm { term: *term, units }));
     }
-    if let Some(by) = r.varies_by().filter(|_| !explained && law.is_none()) {
+    let simple = !explained && !departs && evidence.methods.missing.is_empty();
+    if let Some(by) = r.varies_by().filter(|_| simple) {
         findings.push(Finding::new(RegressionFinding::FrictionVaries { by }));
     }
-    let by_direction = r.viscous_by_direction.as_ref().filter(|_| split);
-    findings.extend(by_direction.and_then(|d| differs_by_direction(d, units)));
     findings
 }
 
@@ -92,9 +79,6 @@ fn left_by_chosen(evidence: &Evidence<'_>, chosen: &Chosen) -> Option<f64> {
     let regression = methods.regression.as_ref();
     Some(match chosen.method? {
         Method::FrictionLaw => methods.friction_law.as_ref()?.relative_residual[1],
-        Method::RegressionByDirection => {
-            regression?.viscous_by_direction.as_ref()?.relative_residual
-        }
         Method::LeastSquares => methods.least_squares.as_ref()?.relative_residual,
         _ => regression?.relative_residual,
     })
@@ -132,19 +116,6 @@ fn gravity_pairs(evidence: &Evidence<'_>, r: &MotorRegression, chosen: &Chosen) 
         Finding::new(RegressionFinding::GravityUnseparated { with, correlation })
     };
     pairs.into_iter().map(finding).collect()
-}
-
-/// Viscous friction that differs by direction.
-fn differs_by_direction(split: &ByDirection, units: EstimateUnits) -> Option<Finding> {
-    let (forward, backward) = split.estimates.friction.viscous_by_direction?;
-    Some(Finding::new(RegressionFinding::ViscousByDirection {
-        forward,
-        backward,
-        residual_share_of_one: split.relative_residual_of_one,
-        residual_share_of_two: split.relative_residual,
-        offset: split.estimates.friction.offset?,
-        units,
-    }))
 }
 
 /// A tip whose sign looks reversed, by the solution that is given.

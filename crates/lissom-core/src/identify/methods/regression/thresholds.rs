@@ -31,22 +31,6 @@ thresholds! {
         /// except one that explains most of the residual and changes an estimate by
         /// `MISSING_MOVES`.
         NOTHING_MISSING: f64 = 5e-5, "1", Convention;
-        /// Relative change of an estimate by a missing term that matters however small the residual
-        /// torque is.
-        MISSING_MOVES: f64 = 1e-3, "1", Convention;
-        /// A missing term that hardly reduces the residual is still reported if its regressor has
-        /// no noise or it is a delay, if it is this many standard errors from zero, and if it
-        /// changes an estimate by `PRESENT`.
-        MISSING_SURE: f64 = 10.0, "standard errors", Convention;
-        /// Gravity is tried as a missing term only if the motor turns by more than this: over a
-        /// smaller angle its sine is a straight line, like the torque of a spring.
-        GRAVITY_TRAVEL_RAD: f64 = 1.0, "rad", Convention;
-        /// If the chosen windows show no missing term, windows this many times as long are
-        /// examined: the sensors' noise is a smaller part of their residual.
-        LONGER_WINDOW: f64 = 4.0, "1", Convention;
-        /// The angle lags behind the command if the residual with the lag is less than this share
-        /// of the residual without it. The estimates are then those with the lag.
-        LAG_EXPLAINS: f64 = 1.0 / 3.0, "1", Convention;
         /// If nobody states whether a command is held, it is taken as held only if it then acts
         /// later by no more than this share of a sample: a longer delay has another cause.
         HELD_DELAY_MOST: f64 = 0.4, "samples", Convention;
@@ -55,9 +39,6 @@ thresholds! {
         HOLD_MATTERS_ERRORS: f64 = 3.0, "standard errors", Convention;
         /// As `HOLD_MATTERS_ERRORS`: in addition the relative change must be more than this.
         HOLD_MATTERS: f64 = 0.01, "1", Convention;
-        /// A lag of the angle is a filter and not a delay, or a delay and not a filter, if the
-        /// residual with the one is less than this share of the residual with the other.
-        LAG_SHAPE_TOLD: f64 = 0.8, "1", Convention;
         /// The residual of the equation is noise of the sensors if this noise explains more than
         /// this share of its square.
         LEFT_BY_NOISE: f64 = 0.5, "1", Convention;
@@ -74,8 +55,6 @@ thresholds! {
         /// As `LEFT_BETWEEN_PHASES`: in addition the root mean square of these constants must be
         /// this share of Coulomb friction.
         VARIATION_REPORTED: f64 = 0.005, "1", Convention;
-        /// The lag is determined from the first runs, up to about this many samples.
-        LAG_SAMPLES_MOST: usize = 50_000, "samples", Convention;
         /// Gravity is separated from inertia and from a constant load if it is known to this share
         /// of m·g·l.
         GRAVITY_KNOWN: f64 = 0.02, "1", Convention;
@@ -113,15 +92,9 @@ thresholds! {
         /// A command has the wrong sign if the scale that describes a run differs from −1 by less
         /// than this.
         REVERSED_SCALE: f64 = 0.3, "1", Convention;
-        /// The magnitude of the command is not tried as a missing term if its correlation with the
-        /// torque is above this: if the torque has one sign, both are the same.
-        MISSING_ONE_SIGN: f64 = 0.5, "1", Convention;
         /// A mode that no tip shows is accepted if the residual with it is less than this share of
         /// the residual without it.
         HIDDEN_MODE_LEAVES: f64 = 0.7, "1", Convention;
-        /// As `HIDDEN_MODE_LEAVES`: in addition the residual must be less than this share of the
-        /// residual with any other single term.
-        HIDDEN_MODE_BEATS: f64 = 0.8, "1", Convention;
         /// As `HIDDEN_MODE_LEAVES`: in addition the frequency of the mode must be this many
         /// standard errors from zero.
         HIDDEN_MODE_SURE: f64 = 20.0, "standard errors", Convention;

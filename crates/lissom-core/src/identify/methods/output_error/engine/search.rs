@@ -338,6 +338,7 @@ mod tests {
                 ..DryTerms::default()
             },
             gravity: None,
+            torque_ripples: Vec::new(),
             command_lag_s: 0.0,
             tip_lags_s: Vec::new(),
         };

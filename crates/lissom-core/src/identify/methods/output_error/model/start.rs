@@ -207,10 +207,7 @@ pub(crate) fn rigid(campaign: &Campaign, drive: &DriveEstimates) -> Option<Modal
     let friction = &drive.friction;
     let coulomb = friction.coulomb?.value;
     let damped = |v: Option<Estimate>| v.map_or(0.0, |v| v.value) + back_emf;
-    let viscous = match friction.viscous_by_direction {
-        Some((forward, backward)) => [damped(Some(forward)), damped(Some(backward))],
-        None => [damped(friction.viscous); 2],
-    };
+    let viscous = [damped(friction.viscous); 2];
     (inertia > 0.0 && coulomb.is_finite()).then(|| ModalArm {
         inertia_kg_m2: inertia,
         viscous_nm_s_per_rad: viscous,
@@ -221,6 +218,7 @@ pub(crate) fn rigid(campaign: &Campaign, drive: &DriveEstimates) -> Option<Modal
         at_points_per_s: Vec::new(),
         dry_terms: DryTerms::default(),
         gravity: drive.gravity.map(|g| g.load()),
+        torque_ripples: Vec::new(),
         command_lag_s: 0.0,
         tip_lags_s: Vec::new(),
     })

@@ -1,6 +1,7 @@
-//! Loads on the motor in addition to friction: gravity of an unbalanced mass.
+//! Gravity of an unbalanced mass.
 
-use crate::record::{Campaign, Hold, Run};
+use super::PositionTorque;
+use crate::record::Campaign;
 
 /// The torque of gravity on the motor, `g_s·sin θ + g_c·cos θ`, with the motor's angle θ as logged.
 ///
@@ -50,23 +51,6 @@ impl GravityLoad {
     /// For a sampled (held) command, the mean of the load at both ends of the sample is subtracted.
     #[must_use]
     pub fn taken_from(&self, campaign: &Campaign) -> Campaign {
-        let command = &campaign.channels.command;
-        let per_unit = command.torque_per_unit();
-        let less = |run: &Run| {
-            let load: Vec<f64> =
-                run.motor().iter().map(|q| self.torque_nm(*q) / per_unit).collect();
-            let acting = |k: usize| match command.hold {
-                Hold::Measured => load[k],
-                Hold::Sampled => 0.5 * (load[k] + load[(k + 1).min(load.len() - 1)]),
-            };
-            run.with_command(|k, u| u - acting(k))
-        };
-        Campaign {
-            channels: campaign.channels.clone(),
-            runs: campaign.runs.iter().map(less).collect(),
-            gravity: false,
-            mgl_nm: None,
-            hold_assumed: campaign.hold_assumed,
-        }
+        PositionTorque::new(Some(*self), &[]).taken_from(campaign)
     }
 }
