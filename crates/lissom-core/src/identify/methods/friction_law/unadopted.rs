@@ -43,12 +43,12 @@ impl Moved {
     }
 }
 
-/// An interval is widened up to this share of its value: what a term would change is no reason to refuse what the logs show
-/// without it.
-const WIDENED_MOST: f64 = 0.99;
+/// An interval is widened up to this standard error, as a share of the value: what a term would change is no reason to doubt the
+/// sign of what the logs show without it.
+const WIDENED_MOST: f64 = 0.49;
 
 /// An estimate that terms which are not known to be absent would change: `by` gives the change by each of `moves`. The largest
-/// that is more than one standard error widens the interval, up to the estimate itself.
+/// that is more than one standard error widens the interval, which then still has the sign of the estimate.
 pub(crate) fn widened(e: Estimate, moves: &[Vec<f64>], by: impl Fn(&Vec<f64>) -> f64) -> Estimate {
     let most = moves.iter().map(|m| by(m).abs()).fold(0.0, f64::max);
     let std = if most > e.std { e.std.hypot(most) } else { e.std };
