@@ -105,8 +105,12 @@ fn published(found: &serde_json::Value) -> serde_json::Value {
     arm["coulomb_n"] = PUBLISHED[2].1.into();
     arm["offset_n"] = PUBLISHED[3].1.into();
     arm["command_lag_s"] = 0.0.into();
-    arm["near_rest"] = serde_json::Value::Null;
-    arm["ripples"] = serde_json::json!([]);
+    for key in ["near_rest", "root", "with_load"] {
+        arm[key] = serde_json::Value::Null;
+    }
+    for key in ["ripples", "torque_ripples"] {
+        arm[key] = serde_json::json!([]);
+    }
     result
 }
 

@@ -4,6 +4,7 @@
 //! All is least squares on windows in slip phases, as in the regression. The windows are as short as the sensor
 //! allows, because long windows average out what changes with speed and place.
 
+mod adopted;
 mod blocks;
 mod candidates;
 pub(crate) mod choice;
@@ -14,10 +15,12 @@ mod lag;
 mod law_estimates;
 mod law_in_arm;
 mod law_term;
+mod possible;
 mod prediction;
 mod projection;
 mod ripple;
 mod rows;
+mod scanned;
 #[cfg(test)]
 mod tests;
 pub(crate) mod thresholds;

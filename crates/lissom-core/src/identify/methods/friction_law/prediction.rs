@@ -57,7 +57,7 @@ pub(super) struct LeftOut {
 
 impl Divided {
     pub(super) fn of(rows: &BlockRows) -> Self {
-        let fold = |block: usize| block * FOLDS.min(rows.blocks) / rows.blocks.max(1);
+        let fold = |block: usize| Self::fold(block, rows.blocks);
         let half = |block: usize| Self::half(block, rows.blocks);
         let runs = rows.units.iter().map(|unit| unit.run + 1).max().unwrap_or(1);
         let groups = runs.min(MOST_RUNS);
@@ -77,6 +77,11 @@ impl Divided {
             kinds,
             halves: [even, odd],
         }
+    }
+
+    /// Which part of the campaign a block belongs to.
+    fn fold(block: usize, blocks: usize) -> usize {
+        block * FOLDS.min(blocks) / blocks.max(1)
     }
 
     /// Which half a block belongs to.
@@ -100,7 +105,7 @@ impl Divided {
         let mut by_block = ByBlock::default();
         for (fold, part) in self.folds.iter().enumerate().filter(|(_, part)| part.rows() > 0) {
             let value = self.total.without(part).values(columns)?;
-            let own = |block: &usize| block * FOLDS.min(blocks) / blocks == fold;
+            let own = |block: &usize| Self::fold(*block, blocks) == fold;
             for block in (0..blocks).filter(own) {
                 by_block.push(&self.blocks[block], columns, &value);
             }

@@ -6,7 +6,7 @@ use std::f64::consts::TAU;
 use crate::identify::methods::friction_law::rows::Sampled;
 
 /// A ripple repeats at least so often over the travel, and periods are looked at in so many steps for one more period.
-pub(super) const LEAST_PERIODS: f64 = 2.0;
+const LEAST_PERIODS: f64 = 2.0;
 const PER_PERIOD: f64 = 4.0;
 /// Periods are looked at down to so many windows' travel at a slow speed, the tenth percentile.
 const SHORTEST: f64 = 2.0;
@@ -37,7 +37,7 @@ pub(super) fn strongest(
     });
     let left: Vec<(f64, f64)> = left.collect();
     let thinned: Vec<_> = left.iter().copied().step_by((left.len() / ROWS).max(1)).collect();
-    let first = LEAST_PERIODS * PER_PERIOD * step;
+    let first = least(sampled);
     let powers = pulp::Arch::new().dispatch(Powers { left: &thinned, first, step, count });
     let (best, _) = powers.iter().enumerate().max_by(|a, b| a.1.total_cmp(b.1))?;
     // Between the steps, by a parabola through the largest and its neighbours.
@@ -52,6 +52,11 @@ pub(super) fn strongest(
 pub(super) fn step(sampled: &Sampled<'_>) -> f64 {
     let [low, high] = sampled.travel();
     TAU / (high - low).max(f64::MIN_POSITIVE) / PER_PERIOD
+}
+
+/// The lowest frequency that [`strongest`] looks at.
+pub(super) fn least(sampled: &Sampled<'_>) -> f64 {
+    LEAST_PERIODS * PER_PERIOD * step(sampled)
 }
 
 /// |Σ residual·e^{jkθ}| at `count` frequencies k from `first` on, `step` apart.

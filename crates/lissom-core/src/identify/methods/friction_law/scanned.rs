@@ -1,0 +1,121 @@
+//! Terms with a value that is searched for: the period of a ripple, and the speed of a change near rest.
+
+use crate::identify::methods::friction_law::blocks::Regressor;
+use crate::identify::methods::friction_law::candidates::{Candidate, ModelTerm, law_regressors};
+use crate::identify::methods::friction_law::choice::{Offer, Search};
+use crate::identify::methods::friction_law::law_term::LawTerm;
+use crate::identify::methods::friction_law::prediction::Divided;
+use crate::identify::methods::friction_law::ripple;
+
+/// A ripple has one period in both halves if its frequencies there differ by less than this many steps of the search.
+const SAME_RIPPLE: f64 = 2.0;
+/// A scanned speed or frequency is improved so many times by its derivative, or until it moves by less than this share.
+const SCANNED_ROUNDS: usize = 6;
+const SCANNED_SETTLED: f64 = 1e-6;
+/// A speed near rest is moved by this factor at most, about the distance of neighbours that are tried.
+const NEAR_REST_APART: f64 = 1.8;
+
+impl Search<'_> {
+    /// Ripples of friction and of torque whose period is the same in both halves, beside further terms; their columns are
+    /// added to the rows.
+    pub(super) fn offer_ripples(&mut self, further: &[&Candidate]) -> Vec<Vec<Offer>> {
+        let columns = self.with(further);
+        let block = self.rows.block_of_windows();
+        let blocks = self.rows.blocks;
+        let all: Vec<f64> = match self.divided.total().values(&columns) {
+            Some(value) => self.rows.left(&columns, &value),
+            None => return Vec::new(),
+        };
+        let mut found = Vec::new();
+        for friction in [true, false] {
+            let at = |half: Option<usize>| {
+                let wanted = |i: usize| half.is_none_or(|h| Divided::half(block[i], blocks) == h);
+                match half {
+                    None => ripple::strongest(self.sampled, &all, friction, wanted),
+                    Some(half) => {
+                        let value = self.divided.of_half(half).values(&columns)?;
+                        let left = self.rows.left(&columns, &value);
+                        ripple::strongest(self.sampled, &left, friction, wanted)
+                    }
+                }
+            };
+            let Some([first, second, whole]) = at(Some(0))
+                .zip(at(Some(1)))
+                .zip(at(None))
+                .map(|((first, second), whole)| [first, second, whole])
+            else {
+                continue;
+            };
+            let same = SAME_RIPPLE * ripple::step(self.sampled);
+            if (first - second).abs() < same && (first - whole).abs() < same {
+                found.push((friction, [first, second, whole]));
+            }
+        }
+        let mut offers = Vec::new();
+        let mut regressors: Vec<Regressor> = Vec::new();
+        let width = self.rows.width();
+        for (friction, frequencies) in found {
+            let [first, second, whole] = frequencies.map(|per_angle| {
+                let term = if friction {
+                    LawTerm::Ripple { per_angle }
+                } else {
+                    LawTerm::TorqueRipple { per_angle }
+                };
+                let from = width + regressors.len();
+                regressors.extend(law_regressors(term));
+                Candidate { term: ModelTerm::Law(term), columns: vec![from, from + 1] }
+            });
+            offers.push(vec![Offer { halves: [first, second], all: whole }]);
+        }
+        if !regressors.is_empty() {
+            self.rows.add(self.sampled, &regressors, &[]);
+            self.divided = Divided::of(&self.rows);
+        }
+        offers
+    }
+
+    /// Takes a term whose speed or frequency was scanned: moves that to the least residual, and adds a column for what the term
+    /// gains with it, so that it is estimated with the rest.
+    pub(super) fn take_scanned(&mut self, term: LawTerm) {
+        let first = self.rows.width();
+        let start = term.scanned();
+        let [least, most] = if let LawTerm::NearRest { .. } = term {
+            [start / NEAR_REST_APART, start * NEAR_REST_APART]
+        } else {
+            let apart = SAME_RIPPLE * ripple::step(self.sampled);
+            [(start - apart).max(ripple::least(self.sampled)), start + apart]
+        };
+        let mut now = start;
+        let mut taken = None;
+        for _ in 0..SCANNED_ROUNDS {
+            let term = term.with_scanned(now);
+            self.rows.truncate(self.sampled, first);
+            let regressors = law_regressors(term);
+            self.rows.add(self.sampled, &regressors, &[]);
+            let mut columns: Vec<usize> = (first..self.rows.width()).collect();
+            let own = Candidate { term: ModelTerm::Law(term), columns: columns.clone() };
+            let Some(value) = self.rows.total().values(&self.with(&[&own])) else { break };
+            let amplitudes = value.rows(value.len() - columns.len(), columns.len());
+            let Some(Regressor::Function(_, acts)) = regressors.first().copied() else { break };
+            let gain = Regressor::Function(term.gain(amplitudes.as_slice()), acts);
+            self.rows.add(self.sampled, &[gain], &[]);
+            columns.push(self.rows.width() - 1);
+            let own = Candidate { term: ModelTerm::Law(term), columns };
+            let step = self.rows.total().values(&self.with(&[&own])).map(|v| v[v.len() - 1]);
+            taken = Some(own);
+            let Some(step) = step.filter(|step| step.abs() > SCANNED_SETTLED * now) else { break };
+            let next = now + step;
+            if !(least..=most).contains(&next) {
+                break;
+            }
+            now = next;
+        }
+        // The gain's column takes part in the standard errors of a ripple. That of a speed near rest would take up what the
+        // speed alone does not: its amplitude is part of no model, and the speed's standard error is that of its steps.
+        if let (LawTerm::NearRest { .. }, Some(own)) = (term, &mut taken) {
+            own.columns.pop();
+            self.rows.truncate(self.sampled, own.columns.last().map_or(first, |last| last + 1));
+        }
+        self.taken.extend(taken);
+    }
+}
