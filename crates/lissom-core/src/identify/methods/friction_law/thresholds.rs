@@ -19,6 +19,9 @@ thresholds! {
         BLOCKS_LEAST: usize = 6, "blocks", Convention;
         /// A term that was not adopted counts as possible if its amplitude is more than this.
         MAY_BE_PRESENT: f64 = 1.0, "standard errors", Convention;
+        /// Terms that are possible widen an interval up to this standard error, as a share of the
+        /// value: by itself that refuses no estimate.
+        WIDENED_MOST: f64 = 0.99, "1", Convention;
         /// Longest lag of a drive, its bus and its sensors.
         LAG_MOST_S: f64 = 0.1, "s", Convention;
         /// The command is made later until less than this remains of its lag; a lag below it is

@@ -2,6 +2,7 @@
 
 use crate::identify::estimate::Estimate;
 use crate::identify::methods::friction_law::candidates::MissingKind;
+use crate::identify::methods::friction_law::thresholds::WIDENED_MOST;
 use crate::identify::methods::regression::{PLACE_COULOMB, PLACE_INERTIA, PLACE_VISCOUS, Solution};
 
 /// An effect that the logs show and the model does not contain.
@@ -43,12 +44,8 @@ impl Moved {
     }
 }
 
-/// An interval is widened up to this standard error, as a share of the value: what a term would change is no reason to doubt the
-/// sign of what the logs show without it.
-const WIDENED_MOST: f64 = 0.49;
-
 /// An estimate that terms which are not known to be absent would change: `by` gives the change by each of `moves`. The largest
-/// that is more than one standard error widens the interval, which then still has the sign of the estimate.
+/// that is more than one standard error widens the interval, up to [`WIDENED_MOST`] of the value.
 pub(crate) fn widened(e: Estimate, moves: &[Vec<f64>], by: impl Fn(&Vec<f64>) -> f64) -> Estimate {
     let most = moves.iter().map(|m| by(m).abs()).fold(0.0, f64::max);
     let std = if most > e.std { e.std.hypot(most) } else { e.std };

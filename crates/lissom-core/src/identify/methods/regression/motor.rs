@@ -275,9 +275,9 @@ impl MotorRegression {
         self.left.is_between_phases().then_some(self.left.varies_by)
     }
 
-    /// Counts what terms that are not known to be absent would change: `moves` of the terms of the equation.
+    /// Counts what terms that are not known to be absent would change in friction and inertia: `moves` of the terms of the
+    /// equation. The coupling keeps its interval: its sign tells whether a tip's sensor is reversed.
     pub(crate) fn widened(mut self, moves: &[Vec<f64>]) -> Self {
-        let columns = self.terms.columns.clone();
         let by = |e: &mut Option<Estimate>, weights: &[(usize, f64)]| {
             let of = |m: &Vec<f64>| weights.iter().map(|(i, w)| w * m[*i]).sum();
             *e = e.map(|e| widened(e, moves, of));
@@ -288,11 +288,6 @@ impl MotorRegression {
         by(&mut self.offset, &[(PLACE_OFFSET, 1.0)]);
         by(&mut self.forward, &[(PLACE_COULOMB, 1.0), (PLACE_OFFSET, 1.0)]);
         by(&mut self.backward, &[(PLACE_COULOMB, 1.0), (PLACE_OFFSET, -1.0)]);
-        let couplings: Vec<(usize, f64)> = columns.couplings().map(|i| (i, 1.0)).collect();
-        by(&mut self.total_coupling, &couplings);
-        for (place, tip) in columns.couplings().zip(&columns.tips) {
-            by(&mut self.coupling[*tip], &[(place, 1.0)]);
-        }
         self
     }
 
