@@ -27,11 +27,15 @@ pub(crate) fn starting_arms(
     arms.extend(motor.mode.and_then(|mode| flexible(usable, drive, mode)));
     // With less viscous friction than none a replay runs away.
     for arm in &mut arms {
-        // A search that starts without a delay may miss one of several samples.
-        arm.command_lag_s = lag_s;
         arm.viscous_nm_s_per_rad.iter_mut().for_each(|v| *v = v.max(0.0));
     }
-    arms
+    if lag_s == 0.0 {
+        return arms;
+    }
+    // A search that starts without a delay may miss one of several samples; one that starts with the delay that stands for
+    // something else ends beside the arm.
+    let late = |arm: &ModalArm| ModalArm { command_lag_s: lag_s, ..arm.clone() };
+    arms.iter().map(late).chain(arms.iter().cloned()).collect()
 }
 
 /// An axis without tips with a mode.

@@ -82,13 +82,15 @@ fn likely_first(fitting: &Fitting<'_>, start: &OutputErrorStart) -> Vec<ModalArm
     kept.into_iter().map(|i| start.arms[i].clone()).collect()
 }
 
-/// Whether two arms have the same modes, and both or neither have friction terms beyond the simplest law.
+/// Whether two arms have the same lag and modes, and both or neither have friction terms beyond the simplest law.
 fn are_alike(a: &ModalArm, b: &ModalArm) -> bool {
     let near = |(p, q): (&Oscillator, &Oscillator)| {
         (p.omega_rad_s / q.omega_rad_s - 1.0).abs() < STARTS_ALIKE
             && (p.stiffness_nm_per_rad / q.stiffness_nm_per_rad - 1.0).abs() < STARTS_ALIKE
     };
+    let lag_s = a.command_lag_s.abs().max(b.command_lag_s.abs());
     a.dry_terms.is_empty() == b.dry_terms.is_empty()
+        && (a.command_lag_s - b.command_lag_s).abs() <= STARTS_ALIKE * lag_s
         && a.modes.len() == b.modes.len()
         && a.modes.iter().zip(&b.modes).all(near)
 }

@@ -11,9 +11,10 @@ use crate::replay::{Prediction, SensorNoise, Window};
 /// Steps of the golden-section search for ln σ, to 1 % of σ.
 const GOLDEN_STEPS: usize = 24;
 
-/// First estimate, from the samples alone. A sensor's steps are counted as Gaussian noise.
+/// First estimate, from the samples alone, no less than their rounding. A sensor's steps are counted as Gaussian noise.
 pub(crate) fn of_samples(campaign: &Campaign) -> Vec<SensorNoise> {
-    each_channel(campaign, &|x| channel_noise(x).std)
+    let rounding = |x: &[f64]| f64::EPSILON * x.iter().fold(0.0, |most: f64, v| most.max(v.abs()));
+    each_channel(campaign, &|x| channel_noise(x).std.max(rounding(x)))
         .into_iter()
         .map(SensorNoise::gaussian)
         .collect()
@@ -63,12 +64,12 @@ pub(crate) fn residuals(
     all
 }
 
-/// Most likely noise of a sensor with steps of `step`, from its residuals.
-pub(crate) fn most_likely(residuals: &[f64], step: f64) -> SensorNoise {
+/// Most likely noise of a sensor with steps of `step`, from its residuals; no less than `least`.
+pub(crate) fn most_likely(residuals: &[f64], step: f64, least: f64) -> SensorNoise {
     let pieces = (residuals.len() / NOISE_RESIDUALS).max(1);
     let looked_at: Vec<f64> = residuals.iter().copied().step_by(pieces).collect();
     let squares: f64 = looked_at.iter().map(|e| e * e).sum();
-    let deviation = (squares / looked_at.len().max(1) as f64).sqrt().max(f64::MIN_POSITIVE);
+    let deviation = (squares / looked_at.len().max(1) as f64).sqrt().max(least);
     if step < SENSOR_STEP_COUNTED * deviation {
         return SensorNoise::gaussian(deviation);
     }

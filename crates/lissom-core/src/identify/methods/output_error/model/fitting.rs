@@ -212,7 +212,7 @@ impl Fitting<'_> {
         let start =
             from.unwrap_or_else(|| problem.at(fit.body.clone(), std::mem::take(&mut fit.windows)));
         let (point, iterations, stop) = problem.search(start, most);
-        fit.residual = residual_deviation(&point, fit.coordinates());
+        fit.residual = residual_deviation(&point, fit.coordinates(), self.noise);
         report.stages.push(StageReport {
             window_s: fit.window_s,
             windows: point.windows.len(),
@@ -261,7 +261,10 @@ impl Fitting<'_> {
             .map(|window| predict(&fit.body.arm, self.campaign, window))
             .collect();
         let left = noise::residuals(self.campaign, &fit.windows, &predicted, self.masks);
-        fit.noise = left.iter().zip(&steps).map(|(e, q)| noise::most_likely(e, *q)).collect();
+        let likely = |((e, q), own): ((&Vec<f64>, &f64), &SensorNoise)| {
+            noise::most_likely(e, *q, f64::EPSILON * own.sigma)
+        };
+        fit.noise = left.iter().zip(&steps).zip(self.noise).map(likely).collect();
         let Some(masks) = without_repeats(self.campaign, fit, &predicted, self.masks) else {
             self.steps(fit, report, STAGE_STEPS_MOST, LAST_STEP_FALL, None);
             return None;
@@ -288,8 +291,9 @@ fn duration_s(run: &Run) -> f64 {
     run.len() as f64 * run.sample_time_s()
 }
 
-/// Standard deviation of each channel's residual, corrected for the number of unknowns.
-fn residual_deviation(point: &SearchPoint, shared: usize) -> Vec<f64> {
+/// Standard deviation of each channel's residual, corrected for the number of unknowns; no less than rounding of the `noise`,
+/// so that sums of logs which an arm describes exactly stay finite.
+fn residual_deviation(point: &SearchPoint, shared: usize, noise: &[SensorNoise]) -> Vec<f64> {
     let channels = point.sums.first().map_or(0, |s| s.squares.len());
     let own = |s: &WindowSums| s.gram.ncols() - 1 - shared;
     let unknowns = point.sums.iter().map(own).sum::<usize>() + shared;
@@ -298,7 +302,7 @@ fn residual_deviation(point: &SearchPoint, shared: usize) -> Vec<f64> {
             let readings: usize = point.sums.iter().map(|s| s.readings[c]).sum();
             let free = (readings as f64 - unknowns as f64 / channels as f64).max(1.0);
             let square: f64 = point.sums.iter().map(|s| s.squares[c]).sum();
-            (square / free).sqrt().max(f64::MIN_POSITIVE)
+            (square / free).sqrt().max(f64::EPSILON * noise[c].sigma)
         })
         .collect()
 }
