@@ -9,28 +9,29 @@ use crate::identify::methods::friction_law::choice::{Search, amplitude};
 use crate::identify::methods::friction_law::lag::AngleLag;
 use crate::identify::methods::friction_law::law_term::LawTerm;
 use crate::identify::methods::friction_law::projection::Speeds;
-use crate::identify::methods::friction_law::thresholds::MAY_BE_PRESENT;
 use crate::identify::methods::friction_law::unadopted::{MissingTerm, Moved};
 use crate::identify::methods::regression::{
     Fitted, MotorColumns, PLACE_COULOMB, PLACE_OFFSET, PLACE_VISCOUS, Solution, Terms,
 };
 
 impl Search<'_> {
-    /// The estimates under the terms of the law that were adopted, their relative residual, the effects that the logs show
-    /// beyond them, and what terms that are not known to be absent would change.
-    #[expect(clippy::type_complexity, clippy::too_many_lines, reason = "the parts of one result")]
+    /// The terms of the law that were adopted, and their columns with those of the line.
+    fn adopted(&self) -> (Vec<(LawTerm, &Candidate)>, Vec<usize>) {
+        let laws: Vec<_> = self.taken.iter().filter_map(|c| Some((c.term.law()?, c))).collect();
+        let further = laws.iter().flat_map(|(_, c)| c.columns.iter().copied());
+        let columns = (0..self.line).chain(further).collect();
+        (laws, columns)
+    }
+
+    /// The estimates under the terms of the law that were adopted, their relative residual, and the effects that the logs show
+    /// beyond them.
     pub(super) fn fit(
         &self,
         speeds: &Speeds,
         lag: Option<AngleLag>,
-    ) -> Option<(LawFit, f64, Vec<MissingTerm>, Vec<Vec<f64>>)> {
-        let laws: Vec<(LawTerm, &Candidate)> =
-            self.taken.iter().filter_map(|c| Some((c.term.law()?, c))).collect();
-        let columns: Vec<usize> = (0..self.line)
-            .chain(laws.iter().flat_map(|(_, c)| c.columns.iter().copied()))
-            .collect();
+    ) -> Option<(LawFit, f64, Vec<MissingTerm>)> {
+        let (laws, columns) = self.adopted();
         let solution = &self.rows.solved(&columns)?;
-        let total = self.rows.total();
         let mut missing = Vec::new();
         for candidate in &self.taken {
             let ModelTerm::Missing(kind) = candidate.term else { continue };
@@ -45,35 +46,6 @@ impl Search<'_> {
                 standard_errors: noted.map_or(0.0, |c| c.standard_errors),
                 residual_ratio: found.relative_residual / solution.relative_residual,
             });
-        }
-        let mut moves = Vec::new();
-        for family in &self.families {
-            if laws.iter().any(|(law, _)| law.name() == family[0].term.name()) {
-                continue;
-            }
-            let tried = family.iter().filter_map(|candidate| {
-                let with = [&columns[..], &candidate.columns].concat();
-                let value = total.values(&with)?;
-                Some((total.squared(&with, &value), value, with, candidate))
-            });
-            let best = tried.min_by(|a, b| a.0.total_cmp(&b.0));
-            let Some((_, value, with, candidate)) = best else { continue };
-            let Some(found) = self.rows.solved(&with) else { continue };
-            let first = columns.len();
-            let size = amplitude(&found, first, candidate.columns.len(), candidate.term);
-            let terms: Vec<&Candidate> = laws.iter().map(|(_, c)| *c).chain([candidate]).collect();
-            let lost = found.inseparable[first..].iter().any(|lost| *lost);
-            if !lost
-                && size.value.abs() > MAY_BE_PRESENT * size.std
-                && self.is_possible(&found, &terms)
-            {
-                let projected = |v: &DVector<f64>, all: &[&Candidate]| {
-                    projected_line(v, all, speeds, self.line)
-                };
-                let before = projected(&solution.value, &terms[..laws.len()]);
-                let after = projected(&value, &terms);
-                moves.push(after.iter().zip(&before).map(|(a, b)| a - b).collect());
-            }
         }
         let own = MotorColumns::of(self.sampled.campaign);
         let unchanged = vec![0.0; solution.value.len()];
@@ -93,21 +65,18 @@ impl Search<'_> {
             if matches!(term, LawTerm::NearRest { .. }) {
                 at_rest = fitted.combined(&[(PLACE_COULOMB, 1.0), (at, 1.0)]);
             }
-            match (term, &mut own[..]) {
-                (LawTerm::CommandLag, [late]) => {
-                    late.value = lag.map_or(late.value, |lag| lag.time_s);
-                }
-                (
-                    LawTerm::Ripple { per_angle } | LawTerm::TorqueRipple { per_angle },
-                    [_, _, rate],
-                ) => {
-                    rate.value += per_angle;
-                }
-                _ => {}
+            if let (
+                LawTerm::Ripple { per_angle } | LawTerm::TorqueRipple { per_angle },
+                [_, _, rate],
+            ) = (term, &mut own[..])
+            {
+                rate.value += per_angle;
             }
             terms.push((*term, own));
             at += n;
         }
+        let late = lag.map(|lag| Estimate { value: lag.time_s, std: lag.std_s });
+        terms.extend(late.map(|late| (LawTerm::CommandLag, vec![late])));
         let back_emf = self.sampled.campaign.channels.command.back_emf_viscous;
         let [level, slope] = weights;
         let by_direction = |sign: f64| {
@@ -131,7 +100,40 @@ impl Search<'_> {
             gravity: found.gravity,
             joint: Terms::of(&fitted),
         };
-        Some((fit, solution.relative_residual, missing, moves))
+        Some((fit, solution.relative_residual, missing))
+    }
+
+    /// What terms that are not known to be absent would change the estimates of the line by.
+    pub(super) fn moves(&self, speeds: &Speeds) -> Option<Vec<Vec<f64>>> {
+        let (laws, columns) = self.adopted();
+        let solution = &self.rows.solved(&columns)?;
+        let total = self.rows.total();
+        let mut moves = Vec::new();
+        for family in &self.families {
+            if laws.iter().any(|(law, _)| law.name() == family[0].term.name()) {
+                continue;
+            }
+            let tried = family.iter().filter_map(|candidate| {
+                let with = [&columns[..], &candidate.columns].concat();
+                let value = total.values(&with)?;
+                Some((total.squared(&with, &value), value, with, candidate))
+            });
+            let best = tried.min_by(|a, b| a.0.total_cmp(&b.0));
+            let Some((_, value, with, candidate)) = best else { continue };
+            let Some(found) = self.rows.solved(&with) else { continue };
+            let first = columns.len();
+            let terms: Vec<&Candidate> = laws.iter().map(|(_, c)| *c).chain([candidate]).collect();
+            let lost = found.inseparable[first..].iter().any(|lost| *lost);
+            if !lost && self.is_possible(&found, &terms) {
+                let projected = |v: &DVector<f64>, all: &[&Candidate]| {
+                    projected_line(v, all, speeds, self.line)
+                };
+                let before = projected(&solution.value, &terms[..laws.len()]);
+                let after = projected(&value, &terms);
+                moves.push(after.iter().zip(&before).map(|(a, b)| a - b).collect());
+            }
+        }
+        Some(moves)
     }
 
     /// What is reported of an effect with some amplitudes.

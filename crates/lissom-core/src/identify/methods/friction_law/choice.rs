@@ -38,20 +38,19 @@ pub struct LawCandidate {
     pub taken: bool,
 }
 
-/// Chooses the terms of the model; also the relative residual of the line. `None` if the rows do not give the line.
-///
-/// The commands of `lagged` rows were made late already: the rest of the lag is estimated with the line.
+/// The term of a lag.
+pub(super) const LAG: ModelTerm = ModelTerm::Law(LawTerm::CommandLag);
+
+/// Chooses the terms of the model; also the relative residual of the line. `None` if the rows do not give the line. Where the
+/// lag is known, the commands are as late as the angle.
 pub(super) fn choose<'a>(
     sampled: &'a Sampled<'a>,
     cut: &Cut,
     fastest: f64,
-    lagged: bool,
+    lag_known: bool,
 ) -> Option<(Search<'a>, f64)> {
-    let mut search = Search::new(sampled, cut, fastest)?;
+    let mut search = Search::new(sampled, cut, fastest, lag_known)?;
     let line_residual = search.solution.relative_residual;
-    if lagged {
-        search.keep_lag();
-    }
     // A term that is dropped may come back: rounds are counted.
     for _ in 0..TERMS_MOST {
         if search.taken.len() >= TERMS_MOST || !search.adopt_best() {
@@ -96,10 +95,11 @@ pub(super) struct Search<'a> {
 }
 
 impl<'a> Search<'a> {
-    fn new(sampled: &'a Sampled<'a>, cut: &Cut, fastest: f64) -> Option<Self> {
+    fn new(sampled: &'a Sampled<'a>, cut: &Cut, fastest: f64, lag_known: bool) -> Option<Self> {
         let mut rows = BlockRows::of(sampled, cut);
         let line = rows.width();
-        let (families, regressors) = families(sampled, fastest, line);
+        let (mut families, regressors) = families(sampled, fastest, line);
+        families.retain(|f| !(lag_known && is_lag(&f[0])));
         rows.add(sampled, &regressors, &[]);
         let divided = Divided::of(&rows);
         let solution = rows.solved(&(0..line).collect::<Vec<_>>())?;
@@ -120,17 +120,6 @@ impl<'a> Search<'a> {
             fastest,
             sample_s,
         })
-    }
-
-    /// Takes the term of the lag from the beginning. The command is delayed already: the term is the error of that delay.
-    fn keep_lag(&mut self) {
-        if let Some(place) = self.families.iter().position(|f| is_lag(&f[0])) {
-            let lag = self.families.remove(place).remove(0);
-            self.taken.push(lag);
-            if let Some(solution) = self.rows.solved(&self.columns()) {
-                self.solution = solution;
-            }
-        }
     }
 
     /// Columns of the line and of the terms taken.
@@ -383,7 +372,7 @@ impl Search<'_> {
 }
 
 fn is_lag(candidate: &Candidate) -> bool {
-    candidate.term == ModelTerm::Law(LawTerm::CommandLag)
+    candidate.term == LAG
 }
 
 impl Offer {
@@ -397,7 +386,7 @@ impl Offer {
 pub(super) fn amplitude(s: &Solution, first: usize, count: usize, term: ModelTerm) -> Estimate {
     let value = s.value.rows(first, count);
     // ∫wτ(t) = ∫w·(equation) − Δ∫ẇτ for τ that acts Δ later.
-    let sign = if term == ModelTerm::Law(LawTerm::CommandLag) { -1.0 } else { 1.0 };
+    let sign = if term == LAG { -1.0 } else { 1.0 };
     if count == 1 {
         let std = s.covariance[(first, first)].max(0.0).sqrt();
         return Estimate { value: sign * value[0], std };

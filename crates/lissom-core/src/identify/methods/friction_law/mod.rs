@@ -43,7 +43,7 @@ use rayon::prelude::*;
 
 use crate::identify::estimate::Estimate;
 use crate::identify::gravity_estimate::Gravity;
-use crate::identify::methods::friction_law::choice::{Search, choose};
+use crate::identify::methods::friction_law::choice::{LAG, Search, choose};
 use crate::identify::methods::friction_law::prediction::Improvement;
 use crate::identify::methods::friction_law::thresholds::{
     FASTEST_QUANTILE, LAG_SETTLED, LAG_SHAPE_TOLD, TORQUE_OF_NOISE,
@@ -184,10 +184,9 @@ struct Source<'a> {
 }
 
 impl Source<'_> {
-    /// Its windows, of commands that were made late.
-    fn sampled<'b>(&self, campaign: &'b Campaign, lag_s: f64) -> Sampled<'b> {
-        let mut sampled = Sampled::new(campaign, self.noise, self.window_s, self.mode);
-        (sampled.load, sampled.lag_s) = (self.load, lag_s);
+    fn sampled(&self) -> Sampled<'_> {
+        let mut sampled = Sampled::new(self.campaign, self.noise, self.window_s, self.mode);
+        sampled.load = self.load;
         sampled
     }
 }
@@ -202,31 +201,32 @@ pub(crate) fn friction_law(
     let (campaign, noise) = (prepared.used(), prepared.noise());
     let load = motor.gravity.map(|g| g.load());
     let mode = motor.mode.map(|m| m.shape());
-    let mut source = Source { campaign, noise, window_s: motor.window_s, mode, load };
-    // A mode that no tip shows enters by fourth derivatives: noise fills short windows.
-    if mode.is_none() {
-        source.window_s = short_windows(&source, motor, inertia);
+    let source = Source { campaign, noise, window_s: motor.window_s, mode, load };
+    // In the windows of the regression.
+    let sampled = source.sampled();
+    let long = Found::of(&sampled, false);
+    let moves = long.as_ref().and_then(Found::moves).unwrap_or_default();
+    let mut lag = long.and_then(|found| found.lag(&source));
+    // A mode that no tip shows enters by fourth derivatives, and noise fills short windows; a filter blurs reversals, which short
+    // windows are near.
+    let blurred = lag.as_ref().is_some_and(|(lag, _)| lag.shape != LagShape::Delay);
+    let window_s = if mode.is_some() || blurred {
+        motor.window_s
+    } else {
+        short_windows(&source, motor, inertia)
+    };
+    let short = Source { window_s, ..source };
+    if lag.is_none() {
+        // Beside what varies over less than a long window.
+        lag = Found::of(&short.sampled(), false)?.lag(&short);
     }
-    let sampled = source.sampled(campaign, 0.0);
-    let found = Found::of(&sampled, false)?;
-    let Some(lag) = found.lag() else { return found.law(&sampled, None) };
-    let (shape, time_s, ratio) = shape_of_lag(&source, &found, lag)?;
-    let mut time_s = time_s;
-    for round in 0.. {
-        let late = delayed(campaign, shape, time_s);
-        let sampled = source.sampled(&late, time_s);
-        let found = Found::of(&sampled, true)?;
-        let rest = found.lag()?;
-        let sample_s = campaign.runs.first()?.sample_time_s();
-        if round + 1 < LAG_ROUNDS && rest.value.abs() > LAG_SETTLED * sample_s {
-            time_s += rest.value;
-            continue;
-        }
-        let samples = time_s / sample_s;
-        let lag = AngleLag { time_s, samples, shape, residual_ratio: ratio, std_s: rest.std };
-        return found.law(&sampled, Some(lag));
-    }
-    None
+    let (lag, tried) = lag.unzip();
+    let late = lag.map(|lag| lag.late(campaign));
+    let late = Source { campaign: late.as_ref().unwrap_or(campaign), ..short };
+    let sampled = late.sampled();
+    let (mut law, sums) = Found::of(&sampled, lag.is_some())?.law(&sampled, lag, moves)?;
+    law.candidates.splice(..0, tried);
+    Some((law, sums))
 }
 
 /// Whether the equation with a mode that no tip measures predicts blocks that were left out better than the one without, each
@@ -241,7 +241,7 @@ pub(crate) fn mode_predicts_better(
         let load = motor.gravity.map(|g| g.load());
         let mode = motor.mode.map(|m| m.shape());
         let source = Source { campaign, noise, window_s: flexible.window_s, mode, load };
-        let sampled = source.sampled(campaign, 0.0);
+        let sampled = source.sampled();
         Found::of(&sampled, false)?.search.left_out_shares()
     };
     let both = predicted(rigid).zip(predicted(flexible));
@@ -255,15 +255,19 @@ fn shape_of_lag(
     lag: Estimate,
 ) -> Option<(LagShape, f64, f64)> {
     let without = found.search.residual_without_lag()?;
+    let sample_s = source.campaign.runs.first()?.sample_time_s();
     let settled = |shape: LagShape| -> Option<(f64, f64)> {
         let mut time_s = lag.value;
         let mut left = f64::INFINITY;
-        for _ in 0..2 {
-            let late = delayed(source.campaign, shape, time_s);
-            let sampled = source.sampled(&late, time_s);
-            let (residual, rest) = found.search.with_lagged(&sampled, &found.cut)?;
+        for _ in 0..LAG_ROUNDS {
+            let late = &delayed(source.campaign, shape, time_s);
+            let sampled = Source { campaign: late, ..*source };
+            let (residual, rest) = found.search.with_lagged(&sampled.sampled(), &found.cut)?;
             left = residual;
             time_s += rest;
+            if rest.abs() < LAG_SETTLED * sample_s {
+                break;
+            }
         }
         Some((time_s, left))
     };
@@ -289,7 +293,7 @@ struct Found<'a> {
 }
 
 impl<'a> Found<'a> {
-    fn of(sampled: &'a Sampled<'a>, lagged: bool) -> Option<Self> {
+    fn of(sampled: &'a Sampled<'a>, lag_known: bool) -> Option<Self> {
         let places = sampled.places();
         let mut speeds: Vec<f64> = places.iter().map(|p| p.speed).collect();
         let mut angles: Vec<f64> = places.iter().map(|p| p.angle).collect();
@@ -303,13 +307,23 @@ impl<'a> Found<'a> {
             middle: quantile(&angles, 0.5)?,
             thirds: [quantile(&speeds, 1.0 / 3.0)?, quantile(&speeds, 2.0 / 3.0)?],
         };
-        let (search, line_residual) = choose(sampled, &cut, fastest, lagged)?;
+        let (search, line_residual) = choose(sampled, &cut, fastest, lag_known)?;
         Some(Self { search, cut, line_residual, speeds })
     }
 
-    /// The lag of the command, if it was adopted.
-    fn lag(&self) -> Option<Estimate> {
-        self.search.lag()
+    /// The lag of the command that was adopted in a source's windows, and the term as it was tried.
+    fn lag(&self, source: &Source<'_>) -> Option<(AngleLag, LawCandidate)> {
+        let first = self.search.lag()?;
+        let tried = self.search.candidates.iter().rev().find(|c| c.taken && c.term == LAG);
+        let (shape, time_s, residual_ratio) = shape_of_lag(source, self, first)?;
+        let samples = time_s / source.campaign.runs.first()?.sample_time_s();
+        let lag = AngleLag { time_s, samples, shape, residual_ratio, std_s: first.std };
+        Some((lag, *tried?))
+    }
+
+    /// What terms that are not known to be absent would change the estimates of the line by.
+    fn moves(&self) -> Option<Vec<Vec<f64>>> {
+        self.search.moves(&Speeds::of(&self.speeds))
     }
 
     /// The model with the curve, and the sums that the curve is from.
@@ -317,10 +331,11 @@ impl<'a> Found<'a> {
         &self,
         sampled: &Sampled<'_>,
         lag: Option<AngleLag>,
+        moves: Vec<Vec<f64>>,
     ) -> Option<(FrictionLaw, CurveSums)> {
         let Self { search, cut, speeds, line_residual } = self;
         let quantiles = Speeds::of(speeds);
-        let (fit, residual, missing, moves) = search.fit(&quantiles, lag)?;
+        let (fit, residual, missing) = search.fit(&quantiles, lag)?;
         let sums = CurveSums::new(sampled, cut, speeds, &search.not_by_speed())?;
         let (curve, by_curve) = sums.by_blocks()?;
         let law = FrictionLaw {
@@ -352,7 +367,8 @@ fn short_windows(source: &Source<'_>, motor: &MotorRegression, inertia: f64) -> 
     let sensor = campaign.runs.par_iter().with_max_len(1).map(of_run).reduce(|| 0.0, f64::max);
     let mut window_s = LEAST_SAMPLES * sample_s;
     loop {
-        let sampled = Source { window_s, ..*source }.sampled(campaign, 0.0);
+        let sampled_source = Source { window_s, ..*source };
+        let sampled = sampled_source.sampled();
         let little = |power: f64| inertia.abs() * sensor < TORQUE_OF_NOISE * power.sqrt();
         let longest = window_s * LONGER >= motor.window_s;
         if longest || sampled.power().is_some_and(little) {

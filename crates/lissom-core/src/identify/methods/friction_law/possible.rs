@@ -47,7 +47,7 @@ impl Search<'_> {
                     possible &= own[0].hypot(own[1]) > size;
                 }
                 ModelTerm::Law(LawTerm::CommandLag) => {
-                    possible &= self.is_lag(self.sampled.lag_s - own[0]);
+                    possible &= self.is_lag(-own[0]);
                 }
                 ModelTerm::Missing(kind @ (MissingKind::WithTorque | MissingKind::BeamDamping)) => {
                     let own: Vec<f64> = own.iter().copied().collect();

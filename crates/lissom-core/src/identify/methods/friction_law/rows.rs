@@ -65,8 +65,6 @@ pub(super) struct Sampled<'a> {
     pub(super) window_s: f64,
     /// Gravity's load as the regression has it, where it acts.
     pub(super) load: Option<GravityLoad>,
-    /// Delay by which the commands of the campaign were made late already \[s\].
-    pub(super) lag_s: f64,
     runs: Arc<Vec<Slipping>>,
     windows: Windows,
     /// Rows of the motor's equation, the right side last, once they were asked for.
@@ -132,7 +130,7 @@ impl<'a> Sampled<'a> {
         let windows = Windows::of(campaign, &runs);
         let equation = OnceLock::new();
         let runs = Arc::new(runs);
-        Self { campaign, window_s, load: None, lag_s: 0.0, runs, windows, equation }
+        Self { campaign, window_s, load: None, runs, windows, equation }
     }
 
     /// Lowest and highest angle of the windows.

@@ -17,8 +17,6 @@ thresholds! {
         BETTER_CHANCE: f64 = 0.022_75, "1", Derived;
         /// No term is adopted if there are fewer blocks of neighbouring slip phases than this.
         BLOCKS_LEAST: usize = 6, "blocks", Convention;
-        /// A term that was not adopted counts as possible if its amplitude is more than this.
-        MAY_BE_PRESENT: f64 = 1.0, "standard errors", Convention;
         /// Terms that are possible widen an interval up to this standard error, as a share of the
         /// value: by itself that refuses no estimate.
         WIDENED_MOST: f64 = 0.99, "1", Convention;
