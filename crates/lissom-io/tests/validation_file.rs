@@ -4,9 +4,11 @@
 use std::path::PathBuf;
 
 use lissom::identify::{FoundArm, Options, ValidationOptions, identify, validate};
+use lissom::load::{GravityLoad, TorqueRipple};
 use lissom::record::{
     Axis, Campaign, Channels, Command, CommandQuantity, Hold, Run, Tip, TipQuantity,
 };
+use lissom::replay::{Root, WithLoad};
 use lissom::rig::{Experiment, Settle};
 use lissom_io::{Error, ResultError, ResultFile, ValidationFile, read_arm};
 use lissom_testmodels::SchemaCheck;
@@ -89,6 +91,10 @@ fn an_arm_that_was_written_is_read_back_and_predicts() {
     let validation = validate(&wrong, &other, &ValidationOptions::default()).unwrap();
     assert!(!validation.findings.is_empty());
     wrong.coupling_alone_nm_per_rad = vec![1.25];
+    wrong.arm.dry_terms.root = Some(Root { torque_nm_per_root_rad_s: 0.2 });
+    let load = GravityLoad { sine_nm: 1.5, cosine_nm: -0.4 };
+    wrong.arm.dry_terms.with_load = Some(WithLoad { coefficient: 0.05, load });
+    wrong.arm.torque_ripples = vec![TorqueRipple { per_rad: 12.0, cosine_nm: 0.05, sine_nm: 0.02 }];
     let file = ValidationFile::of(&other, &wrong, &validation);
     check.look_at(&serde_json::to_value(&file).unwrap());
     check.holds(&["torque.residual_terms[].term", "torque.stretches[].start_s", "findings[].code"]);

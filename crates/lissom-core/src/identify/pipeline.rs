@@ -155,7 +155,7 @@ pub fn identify(
     );
     let sound = any_regression.as_ref().filter(|r| r.relative_residual < REFUSED_TORQUE);
     let hold = sound.and_then(|r| assumed_hold(prepared.used(), options, r));
-    let moves = model.as_ref().map_or_else(Vec::new, |(model, _)| model.moves.clone());
+    let possible = model.as_ref().map_or_else(Vec::new, |(model, _)| model.possible.clone());
     let missing = model.as_ref().map_or_else(Vec::new, |(model, _)| model.missing.clone());
     let regression_residual = any_regression.as_ref().map(|r| r.relative_residual);
     let lag = model.as_ref().and_then(|(model, _)| model.lag);
@@ -201,7 +201,7 @@ pub fn identify(
     let rigid = rigid.and_then(|r| rigid_equation(&prepared, options, r));
     let (without_coupling, regression, law, line) = match rigid {
         None => {
-            let regression = regression.map(|r| r.widened(&moves));
+            let regression = regression.map(|r| MotorRegression { possible, ..r });
             (None, regression, law, line)
         }
         Some(rigid) => (Some(rigid.finding), Some(rigid.regression), rigid.law, rigid.line),

@@ -8,12 +8,14 @@ use crate::identify::estimate::Estimate;
 use crate::identify::findings::describe::Describe;
 use crate::identify::findings::number_text::{counted, significant, with_error};
 use crate::identify::findings::regression_words::{
-    DIGITS, hold_assumed, looks_like, moved, moved_by, moved_by_hold, without_mode,
+    DIGITS, hold_assumed, looks_like, moved, moved_by, moved_by_hold, possible, without_mode,
 };
 use crate::identify::findings::result_key as key;
 use crate::identify::findings::severity::Severity;
 use crate::identify::findings::units::EstimateUnits;
-use crate::identify::methods::friction_law::{AngleLag, LagShape, MissingKind, MissingTerm};
+use crate::identify::methods::friction_law::{
+    AngleLag, LagShape, MissingKind, MissingTerm, MovingTerm,
+};
 use crate::identify::methods::regression::GravityPartner;
 use crate::identify::methods::regression::{HiddenMode, OtherHold};
 
@@ -73,6 +75,11 @@ pub enum RegressionFinding {
         term: MissingTerm,
         /// Units of the coefficient.
         units: EstimateUnits,
+    },
+    /// A term that is not known to be absent would change estimates by many of their standard errors.
+    PossibleTerm {
+        /// The term.
+        term: MovingTerm,
     },
     /// The motor's motion shows a flexible mode, which the estimates account for.
     HiddenMode {
@@ -213,6 +220,7 @@ impl fmt::Display for RegressionFinding {
                 term.residual_ratio,
                 moved_by(term)
             ),
+            Self::PossibleTerm { term } => f.write_str(&possible(term)),
             Self::HiddenMode { mode } => write!(
                 f,
                 "no tip whose angle is known is measured, but the motor's motion shows a flexible mode at {} Hz (motor \
@@ -244,6 +252,7 @@ impl Describe for RegressionFinding {
         match self {
             Self::RegressionRefused { .. } => Severity::Refusal,
             Self::HiddenMode { .. }
+            | Self::PossibleTerm { .. }
             | Self::FrictionVaries { .. }
             | Self::FewPhases { counted: Some(_), .. } => Severity::Info,
             Self::FewPhases { .. }
@@ -280,6 +289,9 @@ impl Describe for RegressionFinding {
                 keys
             }
             Self::FrictionVaries { .. } => vec![key::COULOMB, key::VISCOUS],
+            Self::PossibleTerm { term } => {
+                moved(&term.moves).into_iter().map(|(_, key, _)| key).collect()
+            }
             Self::HiddenMode { mode } => {
                 moved(&mode.moves).into_iter().map(|(_, key, _)| key).collect()
             }
@@ -326,6 +338,9 @@ impl Describe for RegressionFinding {
                 "accelerate more: faster and larger moves, under control of position or speed"
             }
             Self::OneSine => "use the output-error method, or add a run at another frequency",
+            Self::PossibleTerm { .. } => {
+                "log motion that separates the two: other speeds, other accelerations, both directions, more of the travel"
+            }
             Self::MissingTerm { term, .. } => match term.kind {
                 MissingKind::Gravity => "add [load] gravity = true to the campaign",
                 MissingKind::Position => {

@@ -3,7 +3,9 @@
 use crate::identify::findings::number_text::significant;
 use crate::identify::findings::result_key as key;
 use crate::identify::findings::units::EstimateUnits;
-use crate::identify::methods::friction_law::{MissingKind, MissingTerm, Moved};
+use crate::identify::methods::friction_law::{
+    LawTerm, MissingKind, MissingTerm, ModelTerm, Moved, MovingTerm,
+};
 use crate::identify::methods::regression::{HiddenMode, OtherHold};
 use crate::record::Hold;
 
@@ -113,6 +115,35 @@ pub(super) fn moved_by(term: &MissingTerm) -> String {
         None => "with it no estimate changes by more than its standard error".to_owned(),
         Some(changes) => format!("with it the estimates would change ({changes})"),
     }
+}
+
+/// A term that is not known to be absent, and what it would change, in words.
+pub(super) fn possible(term: &MovingTerm) -> String {
+    let named = match term.term {
+        ModelTerm::Law(LawTerm::ViscousByDirection) => "viscous friction that differs by direction",
+        ModelTerm::Law(LawTerm::CommandLag) => "a lag between command and angle",
+        ModelTerm::Law(LawTerm::Root) => "friction with the square root of speed",
+        ModelTerm::Law(LawTerm::NearRest { .. }) => "more or less friction near standstill",
+        ModelTerm::Law(LawTerm::WithLoad { .. }) => "friction that grows with the load",
+        ModelTerm::Law(LawTerm::Ripple { .. }) => "friction that changes over the travel in waves",
+        ModelTerm::Law(LawTerm::TorqueRipple { .. }) => "cogging",
+        ModelTerm::Missing(MissingKind::Position) => "a torque in proportion to the angle",
+        ModelTerm::Missing(MissingKind::Gravity) => "an unbalanced load",
+        ModelTerm::Missing(MissingKind::BeamDamping) => "damping within the beam",
+        ModelTerm::Missing(MissingKind::CommandBySign) => "a torque constant that differs by sign",
+        ModelTerm::Missing(MissingKind::WithTorque) => {
+            "friction that grows with the motor's torque"
+        }
+        ModelTerm::Missing(MissingKind::OverTravel) => "friction that varies over the travel",
+        ModelTerm::Missing(MissingKind::CoulombDrift) => "Coulomb friction that drifts",
+        ModelTerm::Missing(MissingKind::ViscousDrift) => "viscous friction that drifts",
+    };
+    let changes = changed(moved(&term.moves).into_iter().map(|(name, _, share)| (name, share)));
+    format!(
+        "these logs hardly tell {named} from the rest: the model does not contain it, and if it were there, estimates would \
+         change ({}). Their standard errors count this",
+        changes.unwrap_or_default()
+    )
 }
 
 /// The changes of the estimates if the mode were left out, in words.

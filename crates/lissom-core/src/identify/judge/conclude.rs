@@ -50,8 +50,11 @@ pub(crate) fn conclude(evidence: &Evidence<'_>, mut findings: Vec<Finding>) -> C
     }
     findings.extend(remarks::remarks(evidence, &chosen));
     let separability = Separability::of(evidence, &chosen, &findings);
-    // Friction that varies makes runs differ, as does a mode that the arm of the replay has not.
-    let differ = |r: &regression::MotorRegression| r.varies_by().is_some() || r.mode.is_some();
+    // Friction that varies makes runs differ, and one that differs makes it vary; so does a mode that the arm of the replay has not.
+    let differ = |r: &regression::MotorRegression| {
+        r.mode.is_some()
+            || r.varies_by().is_some() && regression::unlike_others(&r.beside_others).is_none()
+    };
     let differ = evidence.methods.regression.as_ref().is_some_and(differ);
     findings.extend(separability.as_ref().filter(|_| !differ).and_then(Separability::finding));
     let arm = FoundArm::of(evidence, &chosen);

@@ -43,7 +43,7 @@ pub(crate) fn rigid_equation(
     let finding = BeamFinding::RigidEquation { coupling, units, residual_shares };
     let law = friction_law(&rigid, &found);
     let line = least_squares(&rigid, Some(found.window_s));
-    let moves = law.as_ref().map_or(&[][..], |(law, _)| &law.moves);
-    let regression = found.widened(moves);
+    let possible = law.as_ref().map_or_else(Vec::new, |(law, _)| law.possible.clone());
+    let regression = MotorRegression { possible, ..found };
     Some(RigidEquation { regression, law, line, finding: Finding::new(finding) })
 }

@@ -9,7 +9,7 @@ use crate::identify::methods::friction_law::choice::{Search, amplitude};
 use crate::identify::methods::friction_law::lag::AngleLag;
 use crate::identify::methods::friction_law::law_term::LawTerm;
 use crate::identify::methods::friction_law::projection::Speeds;
-use crate::identify::methods::friction_law::unadopted::{MissingTerm, Moved};
+use crate::identify::methods::friction_law::unadopted::{MissingTerm, Moved, PossibleTerm};
 use crate::identify::methods::regression::{
     Fitted, MotorColumns, PLACE_COULOMB, PLACE_OFFSET, PLACE_VISCOUS, Solution, Terms,
 };
@@ -103,12 +103,12 @@ impl Search<'_> {
         Some((fit, solution.relative_residual, missing))
     }
 
-    /// What terms that are not known to be absent would change the estimates of the line by.
-    pub(super) fn moves(&self, speeds: &Speeds) -> Option<Vec<Vec<f64>>> {
+    /// The terms that are not known to be absent.
+    pub(super) fn possible(&self, speeds: &Speeds) -> Option<Vec<PossibleTerm>> {
         let (laws, columns) = self.adopted();
         let solution = &self.rows.solved(&columns)?;
         let total = self.rows.total();
-        let mut moves = Vec::new();
+        let mut possible = Vec::new();
         for family in &self.families {
             if laws.iter().any(|(law, _)| law.name() == family[0].term.name()) {
                 continue;
@@ -130,10 +130,11 @@ impl Search<'_> {
                 };
                 let before = projected(&solution.value, &terms[..laws.len()]);
                 let after = projected(&value, &terms);
-                moves.push(after.iter().zip(&before).map(|(a, b)| a - b).collect());
+                let change = after.iter().zip(&before).map(|(a, b)| a - b).collect();
+                possible.push(PossibleTerm { term: candidate.term, change });
             }
         }
-        Some(moves)
+        Some(possible)
     }
 
     /// What is reported of an effect with some amplitudes.

@@ -36,8 +36,8 @@ pub use lag::{AngleLag, LagShape};
 pub(crate) use law_term::NEAR_REST_STEP;
 pub use law_term::{LawTerm, ScaleUnit};
 pub(crate) use projection::Speeds;
-pub(crate) use unadopted::widened;
-pub use unadopted::{MissingTerm, Moved};
+pub use unadopted::{MissingTerm, Moved, MovingTerm};
+pub(crate) use unadopted::{PossibleTerm, widened};
 
 use rayon::prelude::*;
 
@@ -81,8 +81,8 @@ pub struct FrictionLaw {
     pub missing: Vec<MissingTerm>,
     /// Lag of the angle behind the command that the estimates take into account, if it was adopted.
     pub lag: Option<AngleLag>,
-    /// What terms that are not known to be absent would change the estimates of the line by: a change of each for a term.
-    pub(crate) moves: Vec<Vec<f64>>,
+    /// Terms that are not known to be absent.
+    pub(crate) possible: Vec<PossibleTerm>,
     /// The speeds of the windows.
     pub(crate) speeds: Speeds,
     /// Relative residual ‖y − X·q‖/‖y‖ of the line, of the chosen model, and of the curve \[1\].
@@ -205,7 +205,7 @@ pub(crate) fn friction_law(
     // In the windows of the regression.
     let sampled = source.sampled();
     let long = Found::of(&sampled, false);
-    let moves = long.as_ref().and_then(Found::moves).unwrap_or_default();
+    let possible = long.as_ref().and_then(Found::possible).unwrap_or_default();
     let mut lag = long.and_then(|found| found.lag(&source));
     // A mode that no tip shows enters by fourth derivatives, and noise fills short windows; a filter blurs reversals, which short
     // windows are near.
@@ -224,7 +224,7 @@ pub(crate) fn friction_law(
     let late = lag.map(|lag| lag.late(campaign));
     let late = Source { campaign: late.as_ref().unwrap_or(campaign), ..short };
     let sampled = late.sampled();
-    let (mut law, sums) = Found::of(&sampled, lag.is_some())?.law(&sampled, lag, moves)?;
+    let (mut law, sums) = Found::of(&sampled, lag.is_some())?.law(&sampled, lag, possible)?;
     law.candidates.splice(..0, tried);
     Some((law, sums))
 }
@@ -321,9 +321,9 @@ impl<'a> Found<'a> {
         Some((lag, *tried?))
     }
 
-    /// What terms that are not known to be absent would change the estimates of the line by.
-    fn moves(&self) -> Option<Vec<Vec<f64>>> {
-        self.search.moves(&Speeds::of(&self.speeds))
+    /// The terms that are not known to be absent.
+    fn possible(&self) -> Option<Vec<PossibleTerm>> {
+        self.search.possible(&Speeds::of(&self.speeds))
     }
 
     /// The model with the curve, and the sums that the curve is from.
@@ -331,7 +331,7 @@ impl<'a> Found<'a> {
         &self,
         sampled: &Sampled<'_>,
         lag: Option<AngleLag>,
-        moves: Vec<Vec<f64>>,
+        possible: Vec<PossibleTerm>,
     ) -> Option<(FrictionLaw, CurveSums)> {
         let Self { search, cut, speeds, line_residual } = self;
         let quantiles = Speeds::of(speeds);
@@ -347,7 +347,7 @@ impl<'a> Found<'a> {
             chosen: fit,
             missing,
             lag,
-            moves,
+            possible,
             speeds: quantiles,
         };
         Some((law, sums))

@@ -1,7 +1,7 @@
 //! Terms that a model does not have: what they would change, and what follows for the estimates.
 
 use crate::identify::estimate::Estimate;
-use crate::identify::methods::friction_law::candidates::MissingKind;
+use crate::identify::methods::friction_law::candidates::{MissingKind, ModelTerm};
 use crate::identify::methods::friction_law::thresholds::WIDENED_MOST;
 use crate::identify::methods::regression::{PLACE_COULOMB, PLACE_INERTIA, PLACE_VISCOUS, Solution};
 
@@ -44,10 +44,48 @@ impl Moved {
     }
 }
 
-/// An estimate that terms which are not known to be absent would change: `by` gives the change by each of `moves`. The largest
-/// that is more than one standard error widens the interval, up to [`WIDENED_MOST`] of the value.
-pub(crate) fn widened(e: Estimate, moves: &[Vec<f64>], by: impl Fn(&Vec<f64>) -> f64) -> Estimate {
-    let most = moves.iter().map(|m| by(m).abs()).fold(0.0, f64::max);
+/// A term that is not known to be absent, with the change of each estimate of the line when it is added.
+#[derive(Debug, Clone, PartialEq)]
+pub(crate) struct PossibleTerm {
+    pub(crate) term: ModelTerm,
+    pub(crate) change: Vec<f64>,
+}
+
+/// A term that is not known to be absent and would change estimates by many of their standard errors.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct MovingTerm {
+    /// The term.
+    pub term: ModelTerm,
+    /// Changes of the estimates of inertia, viscous and Coulomb friction when the term is added; the standard errors are those
+    /// without it.
+    pub moves: [Moved; 3],
+}
+
+impl MovingTerm {
+    /// Of estimates of inertia, viscous and Coulomb friction.
+    pub(crate) fn of(possible: &PossibleTerm, estimates: [Option<Estimate>; 3]) -> Self {
+        let places = [PLACE_INERTIA, PLACE_VISCOUS, PLACE_COULOMB];
+        let moved = |i: usize| {
+            let change = possible.change[places[i]];
+            let share = |e: Estimate| change / e.value;
+            let errors = |e: Estimate| change / e.std;
+            estimates[i].map_or_else(Moved::default, |e| Moved {
+                share: share(e),
+                standard_errors: errors(e),
+            })
+        };
+        Self { term: possible.term, moves: [0, 1, 2].map(moved) }
+    }
+}
+
+/// An estimate that terms which are not known to be absent would change: `by` gives the change of it by those of the line. The
+/// largest that is more than one standard error widens the interval, up to [`WIDENED_MOST`] of the value.
+pub(crate) fn widened(
+    e: Estimate,
+    possible: &[PossibleTerm],
+    by: impl Fn(&[f64]) -> f64,
+) -> Estimate {
+    let most = possible.iter().map(|p| by(&p.change).abs()).fold(0.0, f64::max);
     let std = if most > e.std { e.std.hypot(most) } else { e.std };
     Estimate { std: e.std.max(std.min(WIDENED_MOST * e.value.abs())), ..e }
 }

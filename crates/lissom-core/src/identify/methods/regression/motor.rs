@@ -8,7 +8,7 @@ use crate::identify::drive_estimates::DriveEstimates;
 use crate::identify::estimate::Estimate;
 use crate::identify::friction_estimates::Friction;
 use crate::identify::gravity_estimate::Gravity;
-use crate::identify::methods::friction_law::{Moved, widened};
+use crate::identify::methods::friction_law::{Moved, MovingTerm, PossibleTerm, widened};
 use crate::identify::methods::regression::cluster_covariance::larger;
 use crate::identify::methods::regression::extra_delay::extra_delay;
 use crate::identify::methods::regression::fitted::Fitted;
@@ -27,6 +27,7 @@ use crate::identify::methods::regression::thresholds::{FEW_PHASES, USUAL_VARIATI
 use crate::identify::options::Options;
 use crate::identify::prepare::prepared::Prepared;
 use crate::identify::prepare::run_noise::RunNoise;
+use crate::identify::thresholds::PRESENT;
 use crate::record::{Campaign, Run};
 
 /// Estimates from the motor's equation, in torque (or force) according to the torque constant of the command.
@@ -74,6 +75,8 @@ pub struct MotorRegression {
     /// the motor \[1\], for example friction that varies in an open loop. Given if each run turns in one direction,
     /// because such runs are not driven by a position loop.
     pub inertia_short_by: Option<f64>,
+    /// Terms that are not known to be absent.
+    pub(crate) possible: Vec<PossibleTerm>,
     /// The same without each run in turn.
     pub(crate) left_out: Vec<RunLeftOut>,
     /// The same in windows of which each run has some.
@@ -226,6 +229,7 @@ fn of_scan(
         coupling: coupling_by_tip,
         gravity,
         mode: None,
+        possible: Vec::new(),
         left,
         delay: extra_delay(&clusters, &terms, columns),
         inertia_short_by,
@@ -275,35 +279,31 @@ impl MotorRegression {
         self.left.is_between_phases().then_some(self.left.varies_by)
     }
 
-    /// Counts what terms that are not known to be absent would change in friction and inertia: `moves` of the terms of the
-    /// equation. The coupling keeps its interval: its sign tells whether a tip's sensor is reversed.
-    pub(crate) fn widened(mut self, moves: &[Vec<f64>]) -> Self {
-        let by = |e: &mut Option<Estimate>, weights: &[(usize, f64)]| {
-            let of = |m: &Vec<f64>| weights.iter().map(|(i, w)| w * m[*i]).sum();
-            *e = e.map(|e| widened(e, moves, of));
-        };
-        by(&mut self.inertia, &[(PLACE_INERTIA, 1.0)]);
-        by(&mut self.viscous, &[(PLACE_VISCOUS, 1.0)]);
-        by(&mut self.coulomb, &[(PLACE_COULOMB, 1.0)]);
-        by(&mut self.offset, &[(PLACE_OFFSET, 1.0)]);
-        by(&mut self.forward, &[(PLACE_COULOMB, 1.0), (PLACE_OFFSET, 1.0)]);
-        by(&mut self.backward, &[(PLACE_COULOMB, 1.0), (PLACE_OFFSET, -1.0)]);
-        self
+    /// Terms that are not known to be absent and would change estimates by more than three of their standard errors.
+    pub(crate) fn moving(&self) -> impl Iterator<Item = MovingTerm> {
+        let estimates = [self.inertia, self.viscous, self.coulomb];
+        let all = self.possible.iter().map(move |p| MovingTerm::of(p, estimates));
+        all.filter(|m| m.moves.iter().any(|m| m.standard_errors.abs() > PRESENT))
     }
 
-    /// The estimates with one viscous coefficient.
+    /// The estimates with one viscous coefficient. Standard errors of friction and inertia count what terms that are not known to
+    /// be absent would change. The coupling keeps its own: its sign tells whether a tip's sensor is reversed.
     pub fn estimates(&self) -> DriveEstimates {
+        let counted = |e: Option<Estimate>, weights: &[(usize, f64)]| {
+            let of = |change: &[f64]| weights.iter().map(|(i, w)| w * change[*i]).sum();
+            e.map(|e| widened(e, &self.possible, of))
+        };
         let friction = Friction {
-            coulomb: self.coulomb,
-            forward: self.forward,
-            backward: self.backward,
-            offset: self.offset,
-            viscous: self.viscous,
+            coulomb: counted(self.coulomb, &[(PLACE_COULOMB, 1.0)]),
+            forward: counted(self.forward, &[(PLACE_COULOMB, 1.0), (PLACE_OFFSET, 1.0)]),
+            backward: counted(self.backward, &[(PLACE_COULOMB, 1.0), (PLACE_OFFSET, -1.0)]),
+            offset: counted(self.offset, &[(PLACE_OFFSET, 1.0)]),
+            viscous: counted(self.viscous, &[(PLACE_VISCOUS, 1.0)]),
             ..Friction::default()
         };
         DriveEstimates {
             friction,
-            inertia: self.inertia,
+            inertia: counted(self.inertia, &[(PLACE_INERTIA, 1.0)]),
             coupling: self.total_coupling,
             coupling_by_tip: self.coupling.clone(),
             gravity: self.gravity,

@@ -6,7 +6,7 @@ use crate::identify::findings::{BeamFinding, EstimateUnits, Finding, RegressionF
 use crate::identify::gravity_estimate::Gravity;
 use crate::identify::identified::torque_constant;
 use crate::identify::judge::{Chosen, Evidence};
-use crate::identify::methods::friction_law::{MissingKind, MissingTerm};
+use crate::identify::methods::friction_law::{MissingKind, MissingTerm, ModelTerm, MovingTerm};
 use crate::identify::methods::regression::motor::MotorRegression;
 use crate::identify::methods::regression::thresholds::{
     CONSTANT_DOUBTED, FEW_PHASES, GRAVITY_KNOWN, INERTIA_SHORT, USUAL_VARIATION,
@@ -65,6 +65,17 @@ pub(crate) fn findings(evidence: &Evidence<'_>, chosen: &Chosen) -> Vec<Finding>
     }
     for term in evidence.methods.missing.iter().filter(|_| !explained) {
         findings.push(Finding::new(RegressionFinding::MissingTerm { term: *term, units }));
+    }
+    if chosen.method == Some(Method::Regression) {
+        let told = |m: &MovingTerm| {
+            !evidence
+                .methods
+                .missing
+                .iter()
+                .any(|missing| ModelTerm::Missing(missing.kind) == m.term)
+        };
+        let possible = |term| Finding::new(RegressionFinding::PossibleTerm { term });
+        findings.extend(r.moving().filter(told).map(possible));
     }
     let simple = !explained && !departs && evidence.methods.missing.is_empty();
     if let Some(by) = r.varies_by().filter(|_| simple) {
