@@ -141,13 +141,15 @@ fn extra_variance(groups: &[(Option<&str>, Vec<LogValue<'_>>)]) -> f64 {
     (all * all - median(stds).unwrap_or(0.0)).max(0.0)
 }
 
-/// Points at times in days; all at one place if a time is unknown.
+/// Points at times in days; all at one place if a time is unknown. What a standard error counts beyond noise is the same in most logs
+/// of a machine: that of a log is no less than their median.
 fn points(values: &[LogValue<'_>], extra: f64) -> Vec<Point> {
+    let typical = median(values.iter().map(|value| value.std * value.std)).unwrap_or(0.0);
     let known = values.iter().all(|value| value.time_us.is_some());
     let point = |value: &LogValue<'_>| Point {
         x: value.time_us.filter(|_| known).map_or(0.0, days),
         y: value.value,
-        std: (extra + value.std * value.std).sqrt().max(f64::MIN_POSITIVE),
+        std: (extra + typical.max(value.std * value.std)).sqrt().max(f64::MIN_POSITIVE),
     };
     values.iter().map(point).collect()
 }

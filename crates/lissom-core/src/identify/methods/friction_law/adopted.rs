@@ -31,7 +31,13 @@ impl Search<'_> {
         lag: Option<AngleLag>,
     ) -> Option<(LawFit, f64, Vec<MissingTerm>)> {
         let (laws, columns) = self.adopted();
-        let solution = &self.rows.solved(&columns)?;
+        let mut solution = self.rows.solved(&columns)?;
+        if let Some(lag) = lag
+            && let Some(by_lag) = self.by_known_lag(&columns, &solution)
+        {
+            solution.covariance += &by_lag * by_lag.transpose() * lag.std_s.powi(2);
+        }
+        let solution = &solution;
         let mut missing = Vec::new();
         for candidate in &self.taken {
             let ModelTerm::Missing(kind) = candidate.term else { continue };
@@ -101,6 +107,14 @@ impl Search<'_> {
             joint: Terms::of(&fitted),
         };
         Some((fit, solution.relative_residual, missing))
+    }
+
+    /// Change of the values of a solution with a known lag, per second of it.
+    fn by_known_lag(&self, columns: &[usize], solution: &Solution) -> Option<DVector<f64>> {
+        let with = [columns, &[self.known_lag?]].concat();
+        let value = self.rows.total().values(&with)?;
+        let n = columns.len();
+        Some((value.rows(0, n) - &solution.value) / value[n])
     }
 
     /// The terms that are not known to be absent.

@@ -84,6 +84,8 @@ pub(super) struct Search<'a> {
     pub(super) families: Vec<Family>,
     pub(super) taken: Vec<Candidate>,
     pub(super) candidates: Vec<LawCandidate>,
+    /// The column of a lag that is known.
+    pub(super) known_lag: Option<usize>,
     pub(super) solution: Solution,
     /// Number of columns of the line.
     pub(super) line: usize,
@@ -99,7 +101,8 @@ impl<'a> Search<'a> {
         let mut rows = BlockRows::of(sampled, cut);
         let line = rows.width();
         let (mut families, regressors) = families(sampled, fastest, line);
-        families.retain(|f| !(lag_known && is_lag(&f[0])));
+        let lag = families.iter().position(|f| lag_known && is_lag(&f[0]));
+        let known_lag = lag.map(|place| families.remove(place)[0].columns[0]);
         rows.add(sampled, &regressors, &[]);
         let divided = Divided::of(&rows);
         let solution = rows.solved(&(0..line).collect::<Vec<_>>())?;
@@ -114,6 +117,7 @@ impl<'a> Search<'a> {
             families,
             taken,
             candidates,
+            known_lag,
             solution,
             line,
             largest_torque,
