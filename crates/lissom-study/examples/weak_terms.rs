@@ -4,6 +4,7 @@
 //!
 //! A rigid joint follows a prescribed motion; the measured current is its torque with noise. The term has 0.5 to 6 times the
 //! standard error that ordinary least squares give it. Nothing of lissom makes the logs.
+#![expect(clippy::print_stdout, clippy::print_stderr, reason = "an example prints its table")]
 
 use std::f64::consts::TAU;
 
@@ -123,7 +124,9 @@ fn errors(kind: usize, seed: u64) -> Option<[f64; 3]> {
         _ => torque(at[k]) + amplitude * shape(k, at[k]),
     };
     let mut command: Vec<f64> = (0..n).map(logged).collect();
-    command.iter_mut().for_each(|u| *u += noise * draw.noise());
+    for u in &mut command {
+        *u += noise * draw.noise();
+    }
     if kind == 4 {
         // The line nearest to friction at the speeds of the log.
         let speeds: Vec<f64> = at.iter().map(|x| x[1].abs()).collect();
@@ -136,7 +139,7 @@ fn errors(kind: usize, seed: u64) -> Option<[f64; 3]> {
     let channels = Channels {
         axis: Axis::Rotary,
         command: Command {
-            quantity: CommandQuantity::Torque,
+            quantity: CommandQuantity::Current,
             hold: Hold::Measured,
             torque_per_command: Some(1.0),
             back_emf_viscous: 0.0,
