@@ -11,7 +11,6 @@ use crate::identify::methods::friction_law::candidates::{
     Candidate, Family, ModelTerm, families, law_regressors,
 };
 use crate::identify::methods::friction_law::law_term::LawTerm;
-use crate::identify::methods::friction_law::possible::largest_torque;
 use crate::identify::methods::friction_law::prediction::{ByBlock, Divided, Improvement, LeftOut};
 use crate::identify::methods::friction_law::rows::{Cut, Sampled};
 use crate::identify::methods::friction_law::thresholds::TERMS_MOST;
@@ -106,7 +105,7 @@ impl<'a> Search<'a> {
         rows.add(sampled, &regressors, &[]);
         let divided = Divided::of(&rows);
         let solution = rows.solved(&(0..line).collect::<Vec<_>>())?;
-        let largest_torque = largest_torque(sampled.campaign);
+        let largest_torque = sampled.largest_torque();
         let runs = sampled.campaign.runs.iter();
         let sample_s = runs.map(Run::sample_time_s).fold(f64::INFINITY, f64::min);
         let (taken, candidates) = (Vec::new(), Vec::new());

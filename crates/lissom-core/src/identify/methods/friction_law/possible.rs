@@ -10,7 +10,7 @@ use crate::identify::methods::friction_law::thresholds::{
 };
 use crate::identify::methods::regression::{PLACE_COULOMB, PLACE_INERTIA, PLACE_VISCOUS, Solution};
 use crate::identify::thresholds::{LAG_HALF_SAMPLE, SIGN_SHOWN};
-use crate::record::{Campaign, Hold, Run};
+use crate::record::Hold;
 
 impl Search<'_> {
     /// Whether a joint may have such a model: friction brakes at rest and at speed, no more than the logs contain, the inertia is
@@ -79,13 +79,6 @@ impl Search<'_> {
         let possible = lag_s > 0.0 || !held || early.abs() < 0.5 * LAG_HALF_SAMPLE;
         possible && (LAG_SETTLED * self.sample_s..LAG_MOST_S).contains(&lag_s.abs())
     }
-}
-
-/// Largest torque (or force) of the commands.
-pub(super) fn largest_torque(campaign: &Campaign) -> f64 {
-    let commands = campaign.runs.iter().flat_map(Run::command);
-    commands.fold(0.0, |most: f64, u| most.max(u.abs()))
-        * campaign.channels.command.torque_per_unit().abs()
 }
 
 /// A weighted sum of the estimates, with its standard error.

@@ -133,6 +133,13 @@ impl<'a> Sampled<'a> {
         Self { campaign, window_s, load: None, runs, windows, equation }
     }
 
+    /// Largest torque (or force) of the commands.
+    pub(super) fn largest_torque(&self) -> f64 {
+        let commands = self.campaign.runs.iter().flat_map(Run::command);
+        let most = commands.fold(0.0, |most: f64, u| most.max(u.abs()));
+        most * self.campaign.channels.command.torque_per_unit().abs()
+    }
+
     /// Lowest and highest angle of the windows.
     pub(super) fn travel(&self) -> [f64; 2] {
         let ends = [f64::INFINITY, f64::NEG_INFINITY];
