@@ -206,7 +206,7 @@ pub(crate) fn friction_law(
     let sampled = source.sampled();
     let long = Found::of(&sampled, false);
     let possible = long.as_ref().and_then(Found::possible).unwrap_or_default();
-    let mut lag = long.and_then(|found| found.lag(&source));
+    let lag = long.and_then(|found| found.lag(&source));
     // A mode that no tip shows enters by fourth derivatives, and noise fills short windows; a filter blurs reversals, which short
     // windows are near.
     let blurred = lag.as_ref().is_some_and(|(lag, _)| lag.shape != LagShape::Delay);
@@ -216,16 +216,22 @@ pub(crate) fn friction_law(
         short_windows(&source, motor, inertia)
     };
     let short = Source { window_s, ..source };
-    if lag.is_none() {
+    let (lag, tried) = if let Some(lag) = lag {
+        lag
+    } else {
         // Beside what varies over less than a long window.
-        lag = Found::of(&short.sampled(), false)?.lag(&short);
-    }
-    let (lag, tried) = lag.unzip();
-    let late = lag.map(|lag| lag.late(campaign));
-    let late = Source { campaign: late.as_ref().unwrap_or(campaign), ..short };
+        let sampled = short.sampled();
+        let found = Found::of(&sampled, false)?;
+        match found.lag(&short) {
+            Some(lag) => lag,
+            None => return found.law(&sampled, None, possible),
+        }
+    };
+    let late = lag.late(campaign);
+    let late = Source { campaign: &late, ..short };
     let sampled = late.sampled();
-    let (mut law, sums) = Found::of(&sampled, lag.is_some())?.law(&sampled, lag, possible)?;
-    law.candidates.splice(..0, tried);
+    let (mut law, sums) = Found::of(&sampled, true)?.law(&sampled, Some(lag), possible)?;
+    law.candidates.insert(0, tried);
     Some((law, sums))
 }
 

@@ -67,11 +67,9 @@ impl MovingTerm {
         let places = [PLACE_INERTIA, PLACE_VISCOUS, PLACE_COULOMB];
         let moved = |i: usize| {
             let change = possible.change[places[i]];
-            let share = |e: Estimate| change / e.value;
-            let errors = |e: Estimate| change / e.std;
             estimates[i].map_or_else(Moved::default, |e| Moved {
-                share: share(e),
-                standard_errors: errors(e),
+                share: change / e.value,
+                standard_errors: change / e.std,
             })
         };
         Self { term: possible.term, moves: [0, 1, 2].map(moved) }
