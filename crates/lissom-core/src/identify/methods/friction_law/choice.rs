@@ -89,8 +89,6 @@ pub(super) struct Search<'a> {
     /// Number of columns of the line.
     pub(super) line: usize,
     pub(super) largest_torque: f64,
-    /// Fastest speed, without outliers.
-    pub(super) fastest: f64,
     /// Shortest sample time.
     pub(super) sample_s: f64,
 }
@@ -120,7 +118,6 @@ impl<'a> Search<'a> {
             solution,
             line,
             largest_torque,
-            fastest,
             sample_s,
         })
     }

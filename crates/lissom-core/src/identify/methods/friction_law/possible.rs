@@ -5,9 +5,7 @@ use nalgebra::DVector;
 use crate::identify::methods::friction_law::candidates::{Candidate, MissingKind, ModelTerm};
 use crate::identify::methods::friction_law::choice::Search;
 use crate::identify::methods::friction_law::law_term::LawTerm;
-use crate::identify::methods::friction_law::thresholds::{
-    LAG_MOST_S, LAG_SETTLED, NEGLIGIBLE_TERM,
-};
+use crate::identify::methods::friction_law::thresholds::LAG_MOST_S;
 use crate::identify::methods::regression::{PLACE_COULOMB, PLACE_INERTIA, PLACE_VISCOUS, Solution};
 use crate::identify::thresholds::{LAG_HALF_SAMPLE, SIGN_SHOWN};
 use crate::record::Hold;
@@ -26,25 +24,15 @@ impl Search<'_> {
         let (mut at_rest, mut viscous, mut apart) = (least.clone(), unit(PLACE_VISCOUS), None);
         let mut first = self.line;
         let mut possible = true;
-        let [coulomb, slope] = [PLACE_COULOMB, PLACE_VISCOUS].map(|i| solution.value[i].abs());
-        let size = NEGLIGIBLE_TERM * coulomb;
+        let coulomb = solution.value[PLACE_COULOMB].abs();
         for term in terms {
             let own = &solution.value.rows(first, term.columns.len());
             match term.term {
-                ModelTerm::Law(LawTerm::NearRest { .. }) => {
-                    at_rest[first] = 1.0;
-                    possible &= own[0].abs() > size;
-                }
-                ModelTerm::Law(LawTerm::ViscousByDirection) => {
-                    apart = Some(first);
-                    possible &= own[0].abs() > NEGLIGIBLE_TERM * slope;
-                }
+                ModelTerm::Law(LawTerm::NearRest { .. }) => at_rest[first] = 1.0,
+                ModelTerm::Law(LawTerm::ViscousByDirection) => apart = Some(first),
                 ModelTerm::Law(LawTerm::WithLoad { .. }) => possible &= own[0] > 0.0,
                 ModelTerm::Law(LawTerm::Ripple { .. }) => {
-                    possible &= (size..coulomb).contains(&own[0].hypot(own[1]));
-                }
-                ModelTerm::Law(LawTerm::TorqueRipple { .. }) => {
-                    possible &= own[0].hypot(own[1]) > size;
+                    possible &= own[0].hypot(own[1]) < coulomb;
                 }
                 ModelTerm::Law(LawTerm::CommandLag) => {
                     possible &= self.is_lag(-own[0]);
@@ -53,10 +41,8 @@ impl Search<'_> {
                     let own: Vec<f64> = own.iter().copied().collect();
                     possible &= self.coefficient(kind, &own, &self.solution) > 0.0;
                 }
-                ModelTerm::Law(LawTerm::Root) => {
-                    possible &= own[0].abs() * self.fastest.sqrt() > size;
-                }
-                ModelTerm::Missing(_) => {}
+                ModelTerm::Law(LawTerm::Root | LawTerm::TorqueRipple { .. })
+                | ModelTerm::Missing(_) => {}
             }
             first += term.columns.len();
         }
@@ -77,7 +63,7 @@ impl Search<'_> {
         let held = self.sampled.campaign.channels.command.hold == Hold::Sampled;
         let early = lag_s / self.sample_s + 0.5;
         let possible = lag_s > 0.0 || !held || early.abs() < 0.5 * LAG_HALF_SAMPLE;
-        possible && (LAG_SETTLED * self.sample_s..LAG_MOST_S).contains(&lag_s.abs())
+        possible && lag_s.abs() < LAG_MOST_S
     }
 }
 

@@ -4,7 +4,9 @@ use nalgebra::DVector;
 use statrs::distribution::{ContinuousCDF as _, StudentsT};
 
 use crate::identify::methods::friction_law::blocks::{BlockRows, Gram, Unit};
-use crate::identify::methods::friction_law::thresholds::{BETTER_CHANCE, BLOCKS_LEAST};
+use crate::identify::methods::friction_law::thresholds::{
+    BETTER_CHANCE, BLOCKS_LEAST, SAVED_LEAST,
+};
 
 /// Parts of the campaign, in the order of time, that are left out one after another.
 const FOLDS: usize = 10;
@@ -141,7 +143,7 @@ pub(super) struct Improvement {
     pub(super) saved: f64,
     /// Mean over its standard error, the least over the ways to join neighbouring blocks \[1\].
     pub(super) standard_errors: f64,
-    /// Whether that is more than two standard errors, for the number of blocks by Student's t.
+    /// Whether that is worth a term, and more than two standard errors, for the number of blocks by Student's t.
     pub(super) is_sure: bool,
 }
 
@@ -162,7 +164,7 @@ impl Improvement {
         let saved = saved / all.max(f64::MIN_POSITIVE);
         let enough = each.len() >= BLOCKS_LEAST;
         let mut found =
-            Self { saved, standard_errors: f64::INFINITY, is_sure: enough && saved > 0.0 };
+            Self { saved, standard_errors: f64::INFINITY, is_sure: enough && saved > SAVED_LEAST };
         let mut together = 1;
         while each.len() / together >= BLOCKS_LEAST {
             let joined = each.chunks(together).map(|some| {

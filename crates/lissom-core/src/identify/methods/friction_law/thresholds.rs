@@ -15,6 +15,11 @@ thresholds! {
         /// Probability that chance alone gives an improvement of the prediction that adopts a
         /// term: two standard errors of a normal distribution, by Student's t for few blocks.
         BETTER_CHANCE: f64 = 0.022_75, "1", Derived;
+        /// A term is worth adopting if it saves more than this share of the squared residual of what
+        /// was left out; a smaller one counts in the intervals. On 200 generated and 16 measured logs
+        /// true terms save 6 % and more, false ones up to 4 %: they describe what repeats in motions
+        /// that repeat, such as the steps of an encoder.
+        SAVED_LEAST: f64 = 0.05, "1", Measured;
         /// No term is adopted if there are fewer blocks of neighbouring slip phases than this.
         BLOCKS_LEAST: usize = 6, "blocks", Convention;
         /// Terms that are possible widen an interval up to this standard error, as a share of the
@@ -38,8 +43,8 @@ thresholds! {
         LAW_LEAVES_MUCH: f64 = 0.05, "1", Convention;
         /// A knot of the friction curve is left out if fewer windows than this are near its speed.
         KNOT_ROWS: f64 = 20.0, "windows", Convention;
-        /// A term smaller than this share of Coulomb and viscous friction is not adopted; one of
-        /// the output-error method is reported as negligible.
+        /// A term of the output-error method that is smaller than this share of Coulomb and viscous
+        /// friction is reported as negligible.
         NEGLIGIBLE_TERM: f64 = 1e-3, "1", Convention;
     }
 }
