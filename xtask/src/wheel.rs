@@ -25,7 +25,7 @@ runs = {'runs': [{'sine': {'frequency': f, 'amplitude': '0.5 rad'}, 'periods': 1
 logs = lissom.simulate(arm, runs)
 signals = {'time': 't:s', 'motor': 'theta_m:rad', 'current': lissom.Signal('i', 'A', hold='sampled')}
 result = lissom.identify(lissom.Campaign(logs, torque_constant='0.2 N*m/A', **signals), effort='quick')
-assert abs(result['friction.coulomb_nm'] - 0.02) < 1e-3, result
+assert abs(result['friction.coulomb'] - 0.02) < 1e-3, result
 command = sys.executable.replace('python.exe', 'Scripts/lissom.exe') if sys.platform == 'win32' else sys.prefix + '/bin/lissom'
 print(subprocess.run([command, '--version'], check=True, capture_output=True, text=True).stdout.strip())
 subprocess.run([command, 'help', 'studio'], check=True, capture_output=True)

@@ -103,15 +103,13 @@ fn only_the_parameter_that_changed_differs_clearly() {
     check.look_at(&serde_json::from_str(&text).unwrap());
     check.holds(&["parameters[].differences[].standard_errors", "results[].torque_per_command"]);
     let found: ComparedFile = serde_json::from_str(&text).unwrap();
-    for key in ["friction.coulomb_a", "friction.coulomb_nm"] {
-        let d = difference(&found, key, 1);
-        assert!(d.clear && (d.relative.unwrap() - 0.3).abs() < 0.02, "{key}: {d:?}");
-        let p = parameter(&found, key);
-        let [a, b] = [0, 1].map(|k| p.values[k].clone().unwrap());
-        assert!((d.value - (b.value - a.value)).abs() < 1e-12, "{key}: {d:?}");
-        assert!((d.std - a.std.hypot(b.std)).abs() < 1e-12, "{key}: {d:?}");
-    }
-    let d = difference(&found, "drive.inertia_kg_m2", 1);
+    let d = difference(&found, "friction.coulomb", 1);
+    assert!(d.clear && (d.relative.unwrap() - 0.3).abs() < 0.02, "{d:?}");
+    let p = parameter(&found, "friction.coulomb");
+    let [a, b] = [0, 1].map(|k| p.values[k].clone().unwrap());
+    assert!((d.value - (b.value - a.value)).abs() < 1e-12, "{d:?}");
+    assert!((d.std - a.std.hypot(b.std)).abs() < 1e-12, "{d:?}");
+    let d = difference(&found, "drive.inertia", 1);
     assert!(!d.clear && d.relative.unwrap().abs() < 0.01, "{d:?}");
     for p in &found.parameters {
         let d = p.differences[1].as_ref().unwrap();
@@ -136,16 +134,16 @@ fn a_parameter_that_is_doubtful_or_absent_is_marked() {
     identify(at, "after.json", 1.3 * COULOMB, 2);
     let text = fs::read_to_string(at.join("after.json")).unwrap();
     let mut after: serde_json::Value = serde_json::from_str(&text).unwrap();
-    after["drive"]["inertia_kg_m2"] = serde_json::Value::Null;
+    after["drive"]["inertia"] = serde_json::Value::Null;
     after["findings"].as_array_mut().unwrap().push(serde_json::json!({
         "code": "few-phases", "severity": "warning", "run": null,
         "affects": ["friction.coulomb"], "message": "", "hint": ""
     }));
-    let estimate = after["friction"]["coulomb_nm"].clone();
+    let estimate = after["friction"]["coulomb"].clone();
     let mut law = after["friction"].clone();
     law.as_object_mut().unwrap().retain(|key, _| key != "law" && key != "curve");
     law["near_rest"] = serde_json::json!({
-        "amplitude_nm": estimate, "static_nm": null, "speed_rad_per_s": estimate,
+        "amplitude": estimate, "static_friction": null, "speed": estimate,
         "falloff": "exponential"
     });
     after["friction"]["law"] = law;

@@ -91,19 +91,19 @@ fn staircases_give_friction_and_nothing_confusing() {
         let found = value(&result, path);
         assert!((found / truth - 1.0).abs() < ERROR, "{path}: {found}, true {truth}");
     };
-    near("/methods/constant_velocity/forward_a/value", FORWARD);
-    near("/methods/constant_velocity/backward_a/value", BACKWARD);
-    near("/methods/constant_velocity/coulomb_nm/value", K * 0.5 * (FORWARD + BACKWARD));
-    near("/methods/constant_velocity/viscous_nm_s_per_rad/value", K * VISCOUS);
-    near("/friction/coulomb_a/value", 0.5 * (FORWARD + BACKWARD));
-    near("/friction/offset_a/value", 0.5 * (FORWARD - BACKWARD));
-    assert_eq!(result["drive"]["inertia_kg_m2"], Value::Null);
+    near("/methods/constant_velocity/forward/value", FORWARD);
+    near("/methods/constant_velocity/backward/value", BACKWARD);
+    near("/methods/constant_velocity/coulomb/value", K * 0.5 * (FORWARD + BACKWARD));
+    near("/methods/constant_velocity/viscous/value", K * VISCOUS);
+    near("/friction/coulomb/value", 0.5 * (FORWARD + BACKWARD));
+    near("/friction/offset/value", 0.5 * (FORWARD - BACKWARD));
+    assert_eq!(result["drive"]["inertia"], Value::Null);
     assert_eq!(codes(&result), ["constant-velocity-only", "offset", "constant-velocity-estimates"]);
     let points = result["methods"]["constant_velocity"]["points"].as_array().unwrap();
     assert_eq!(points.len(), 10);
     assert_eq!(points[0]["run"], "0.csv");
     assert_eq!(points[0]["direction"], "forward");
-    assert!((value(&points[0], "/velocity_rad_per_s/value") - 1.0).abs() < 1e-3);
+    assert!((value(&points[0], "/velocity/value") - 1.0).abs() < 1e-3);
     assert_eq!(points[9]["direction"], "backward");
     for run in result["runs"].as_array().unwrap() {
         assert_eq!(run["kind"], "constant_velocity");
@@ -137,8 +137,8 @@ fn a_bend_is_said_with_its_direction() {
     assert!(bent[0]["message"].as_str().unwrap().contains("is too high"));
     let line = &result["methods"]["constant_velocity"]["lines"][0];
     assert_eq!(line["shape"], "concave");
-    assert!(value(line, "/slowest_a/value") < value(line, "/coulomb_a/value"));
-    let taken = value(&result, "/friction/forward_a/value");
+    assert!(value(line, "/slowest_a/value") < value(line, "/coulomb/value"));
+    let taken = value(&result, "/friction/forward/value");
     assert!((taken - value(line, "/slowest_a/value")).abs() < 1e-12);
 }
 
@@ -152,6 +152,6 @@ fn what_a_campaign_lacks_is_refused() {
         let folder = folder(&logs);
         let result = result(folder.path(), 3);
         assert!(codes(&result).contains(&code), "{code}: {:?}", codes(&result));
-        assert_eq!(result["friction"]["coulomb_a"], Value::Null);
+        assert_eq!(result["friction"]["coulomb"], Value::Null);
     }
 }

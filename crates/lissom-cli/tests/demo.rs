@@ -92,10 +92,10 @@ fn regression_intervals_are_not_wishful() {
     let arm = report_arm();
     let result = &demo().output["result"];
     let figures = [
-        (&result["friction"]["coulomb_nm"], arm.coulomb.forward()),
-        (&result["friction"]["viscous_nm_s_per_rad"], arm.motor.viscous_nm_s_per_rad()),
-        (&result["drive"]["inertia_kg_m2"], arm.motor.inertia_kg_m2()),
-        (&result["beam"]["coupling_nm_per_rad"], arm.dynamics().coupling_motor),
+        (&result["friction"]["coulomb"], arm.coulomb.forward()),
+        (&result["friction"]["viscous"], arm.motor.viscous_nm_s_per_rad()),
+        (&result["drive"]["inertia"], arm.motor.inertia_kg_m2()),
+        (&result["beam"]["coupling"], arm.dynamics().coupling_motor),
     ];
     for (figure, truth) in figures {
         let value = |key: &str| figure[key].as_f64().unwrap();

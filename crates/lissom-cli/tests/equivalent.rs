@@ -106,21 +106,21 @@ fn a_table_gives_the_arm() {
     for k in 0..3 {
         let omega = number(&found["modes"][k]["natural_frequency_rad_s"]);
         assert!((omega / truth.natural_frequencies_rad_s[k] - 1.0).abs() < 2e-3);
-        let h = number(&found["torque"]["h_nm_per_rad"][k]);
+        let h = number(&found["torque"]["h"][k]);
         assert!((h / truth.h[k] - 1.0).abs() < 2e-2, "{h} {}", truth.h[k]);
         for j in 0..3 {
             let used = found["strainless"]["a_per_s2"][k][j].as_f64().unwrap();
             assert!((used - truth.a[(k, j)]).abs() < 5e-3 * truth.a.amax());
         }
     }
-    let h_motor = number(&found["torque"]["h_motor_nm_per_rad"]);
+    let h_motor = number(&found["torque"]["h_motor"]);
     assert!((h_motor / truth.h_motor - 1.0).abs() < 2e-2);
     for picture in ["bode.png", "bode-motor.png"] {
         assert!(std::fs::read(folder.path().join(picture)).unwrap().starts_with(b"\x89PNG"));
     }
     // Per unit of command, alone on standard output; without the motor step 5 alone.
     let plain: Value = serde_json::from_str(&run(&["--json"])).unwrap();
-    assert!(plain["equivalent"]["torque"]["h_a_per_rad"].is_array());
+    assert!(plain["equivalent"]["torque"]["h"].is_array());
     let fewer = run(&["--modes", "1"]);
     assert!(
         fewer.contains("[equivalent-modes-left-out]")
@@ -270,6 +270,6 @@ periods = 12
     let zero = &found["zeros"][1]["zeros"][0];
     assert_eq!(zero["class"], "b");
     assert!((number(&zero["magnitude_rad_s"]) / 35.691 - 1.0).abs() < 2e-2, "{zero}");
-    let h_motor = number(&found["torque"]["h_motor_nm_per_rad"]);
+    let h_motor = number(&found["torque"]["h_motor"]);
     assert!((h_motor / 0.463_943 - 1.0).abs() < 2e-2, "{h_motor}");
 }

@@ -38,11 +38,8 @@ fn found(folder: &Path, log: &str, options: &[&str]) -> Value {
     let (code, json, error) = lissom(folder, &arguments);
     assert_eq!(code, Some(0), "{log}: {error}");
     let result: Value = serde_json::from_str(&json).unwrap();
-    let truth = [
-        ("/friction/coulomb_nm", 0.25),
-        ("/friction/viscous_nm_s_per_rad", 0.05),
-        ("/drive/inertia_kg_m2", 0.012),
-    ];
+    let truth =
+        [("/friction/coulomb", 0.25), ("/friction/viscous", 0.05), ("/drive/inertia", 0.012)];
     for (pointer, truth) in truth {
         let value = result.pointer(&format!("{pointer}/value")).unwrap().as_f64().unwrap();
         assert!((value / truth - 1.0).abs() < 0.02, "{log}: {pointer} {value}");
@@ -95,7 +92,7 @@ fn the_parameters_are_found_in_one_command() {
     let (code, json, error) = lissom(folder.path(), &state);
     assert_eq!(code, Some(0), "{error}");
     let result: Value = serde_json::from_str(&json).unwrap();
-    let inertia = result["drive"]["inertia_kg_m2"]["value"].as_f64().unwrap();
+    let inertia = result["drive"]["inertia"]["value"].as_f64().unwrap();
     assert!((inertia / 0.012 - 1.0).abs() < 0.02, "{inertia}");
 }
 
@@ -283,8 +280,8 @@ fn a_log_is_checked_against_limits() {
     std::fs::write(at.join("drive-17/0815.csv"), log).unwrap();
     let limits = |coulomb: &str| {
         format!(
-            "path = \"{{machine}}/{{time}}.csv\"\n[[limits]]\nparameter = \"friction.coulomb_nm\"\n{coulomb}\n\
-             [[limits]]\nparameter = \"drive.inertia_kg_m2\"\nmin = 0.01\nmax = 0.02\n"
+            "path = \"{{machine}}/{{time}}.csv\"\n[[limits]]\nparameter = \"friction.coulomb\"\nunit = \"N*m\"\n{coulomb}\n\
+             [[limits]]\nparameter = \"drive.inertia\"\nunit = \"kg*m^2\"\nmin = 0.01\nmax = 0.02\n"
         )
     };
     let check = |coulomb: &str, more: &[&str]| {
@@ -312,7 +309,10 @@ fn a_log_is_checked_against_limits() {
     assert_eq!(code, Some(3), "{shown}");
     let (code, _, error) = check("max = 0.3", &[]);
     assert_eq!(code, Some(1));
-    assert!(error.contains("has no parameter \"friction.coulomb_nm\""), "{error}");
+    assert!(
+        error.contains("the limits of friction.coulomb are in N·m, the result is in A"),
+        "{error}"
+    );
     let (code, _, error) = check("min = 0.4\nmax = 0.3", &constant);
     assert_eq!(code, Some(1));
     assert!(error.contains("limits.toml"), "{error}");

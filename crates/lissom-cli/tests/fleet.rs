@@ -121,10 +121,10 @@ fn rows_summary_page_and_table() {
             .starts_with("24 of 24 logs identified, of 3 machines, from 2026-01-01 to 2026-08-01.")
     );
     let page = fs::read_to_string(folder.join("page.html")).unwrap();
-    assert!(page.contains("friction.coulomb_nm") && page.contains("script-src 'sha256-"));
+    assert!(page.contains("friction.coulomb") && page.contains("script-src 'sha256-"));
     let json = output(lissom(folder).args(["fleet", "summary", "out", "--json"]));
     let summary: lissom_fleet::FleetSummary = serde_json::from_slice(&json.stdout).unwrap();
-    let coulomb = summary.parameters.iter().find(|p| p.key == "friction.coulomb_nm").unwrap();
+    let coulomb = summary.parameters.iter().find(|p| p.key == "friction.coulomb [N·m]").unwrap();
     assert!((coulomb.distribution.median / 0.02 - 1.0).abs() < 0.02);
     let table = output(lissom(folder).args(["fleet", "table", "out", "--out", "rows.csv"]));
     assert!(table.status.success());

@@ -42,7 +42,7 @@ fn a_time_limit_takes_the_best_so_far() {
     assert!(text.contains("was stopped after"), "{text}");
     assert!(text.contains("Coulomb friction"), "{text}");
     let result = fs::read_to_string(folder.path().join("result.json")).unwrap();
-    assert!(result.contains("coulomb_a"), "{result}");
+    assert!(result.contains("coulomb"), "{result}");
 }
 
 #[test]

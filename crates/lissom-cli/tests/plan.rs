@@ -98,7 +98,7 @@ fn a_plan_is_run_as_it_was_foreseen() {
     let own = lissom(at, &["identify", "tables/campaign.toml", "--quick", "--json"]);
     assert!(own.status.success(), "{}", text(&own.stderr));
     let found: Value = serde_json::from_slice(&own.stdout).unwrap();
-    assert!(found["friction"]["coulomb_nm"]["value"].is_number(), "{found}");
+    assert!(found["friction"]["coulomb"]["value"].is_number(), "{found}");
     fs::write(at.join("tables/campaign.toml"), "# mine\n").unwrap();
     let again = lissom(at, &["plan", "arm.toml", "--tables", "tables"]);
     assert!(again.status.success() && text(&again.stderr).contains("left as it is"));
@@ -232,6 +232,6 @@ fn a_load_is_planned_and_run() {
     let found = lissom(at, &["identify", "virtual/campaign.toml", "--json"]);
     assert!(found.status.success(), "{}", text(&found.stderr));
     let found: Value = serde_json::from_slice(&found.stdout).unwrap();
-    let amplitude = found["gravity"]["amplitude_nm"].clone();
+    let amplitude = found["gravity"]["amplitude"].clone();
     assert!((amplitude["value"].as_f64().unwrap() / 0.3 - 1.0).abs() < 0.003, "{amplitude}");
 }

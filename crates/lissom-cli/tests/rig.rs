@@ -127,8 +127,8 @@ fn the_logs_are_read_back_and_tell_the_truth() {
         let (found, truth) = (found["value"].as_f64().unwrap(), truth.as_f64().unwrap());
         assert!((found / truth - 1.0).abs() < by, "{found} {truth}");
     };
-    near(&found["friction"]["coulomb_nm"], &rig["truth"]["forward_nm"], 0.02);
-    near(&found["drive"]["inertia_kg_m2"], &rig["truth"]["inertia_kg_m2"], 0.03);
+    near(&found["friction"]["coulomb"], &rig["truth"]["forward_nm"], 0.02);
+    near(&found["drive"]["inertia"], &rig["truth"]["inertia_kg_m2"], 0.03);
 }
 
 #[test]
@@ -377,11 +377,11 @@ fn a_load_is_identified_with_the_rest() {
         let truth = truth.as_f64().unwrap();
         assert!((value / truth - 1.0).abs() < by, "{value} {truth}");
     };
-    near(&found["drive"]["inertia_kg_m2"], &truth["inertia_kg_m2"], 1e-4);
-    near(&found["friction"]["coulomb_nm"], &truth["forward_nm"], 1e-4);
-    near(&found["friction"]["viscous_nm_s_per_rad"], &truth["viscous_nm_s_per_rad"], 1e-4);
-    near(&found["gravity"]["sine_nm"], &truth["gravity"]["sine_nm"], 1e-4);
-    near(&found["gravity"]["cosine_nm"], &truth["gravity"]["cosine_nm"], 1e-4);
+    near(&found["drive"]["inertia"], &truth["inertia_kg_m2"], 1e-4);
+    near(&found["friction"]["coulomb"], &truth["forward_nm"], 1e-4);
+    near(&found["friction"]["viscous"], &truth["viscous_nm_s_per_rad"], 1e-4);
+    near(&found["gravity"]["sine"], &truth["gravity"]["sine_nm"], 1e-4);
+    near(&found["gravity"]["cosine"], &truth["gravity"]["cosine_nm"], 1e-4);
 }
 
 #[test]

@@ -24,7 +24,7 @@ const DAY_US: f64 = 86_400e6;
 const CAMPAIGN: &str = "signals.time = { column = 't', unit = 's' }
 signals.current = { column = 'i', unit = 'A', hold = 'sampled' }
 signals.motor = { column = 'q', unit = 'rad' }";
-const KEY: &str = "friction.coulomb_nm";
+const KEY: &str = "friction.coulomb [N·m]";
 
 fn main() -> Result<(), Box<dyn std::error::Error>> {
     let seeds: Vec<u64> = std::env::args().skip(1).map(|s| s.parse()).collect::<Result<_, _>>()?;

@@ -67,9 +67,9 @@ impl RowResult {
     /// The estimates and findings of a result, and the whole result if it is kept.
     pub fn of(found: &Found, effort: EffortName, keep: bool) -> Self {
         let file: ResultFile = found.file();
-        let parameters = ParameterList::of(&file).map_or_else(Vec::new, |list| list.parameters);
+        let parameters = ParameterList::of(&file).parameters;
         let estimates = parameters.into_iter().map(|parameter| RowEstimate {
-            key: parameter.key,
+            key: format!("{} [{}]", parameter.key, parameter.unit),
             value_std: parameter.estimate.map(|e| (e.value, e.std)),
         });
         let codes = |severity: SeverityName| {
@@ -95,7 +95,7 @@ impl RowResult {
 /// An estimate of a row.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct RowEstimate {
-    /// Key in `result.json`, with the suffix of the unit.
+    /// Key in `result.json`, with its unit in brackets.
     pub key: String,
     /// Value and standard error; none if it is refused.
     pub value_std: Option<(f64, f64)>,

@@ -15,7 +15,7 @@ use rand_xoshiro::rand_core::{Rng as _, SeedableRng as _};
 const MACHINES: usize = 1000;
 const LOGS: u32 = 8;
 const DRIFTING: usize = 10;
-const KEY: &str = "friction.coulomb_nm";
+const KEY: &str = "friction.coulomb [N·m]";
 const DAY_US: i64 = 86_400_000_000;
 const CAMPAIGN: &str = "signals.time = { column = 't', unit = 's' }
 signals.current = { column = 'i', unit = 'A', hold = 'measured' }

@@ -31,7 +31,7 @@ while read log; do
     esac
     echo "{\"row\":{\"log\":\"$name\",\"machine\":null,\"time_us\":null,\"input_sha256\":null,\"seconds\":0.001,\
 \"version\":\"VERSION\",\"outcome\":{\"identified\":{\"effort\":\"quick\",\
-\"estimates\":[{\"key\":\"drive.inertia_kg_m2\",\"value_std\":[2.0,0.1]}],\
+\"estimates\":[{\"key\":\"drive.inertia [kg·m²]\",\"value_std\":[2.0,0.1]}],\
 \"refusals\":[],\"warnings\":[],\"infos\":[\"command-noise\"],\"json\":null}}}}"
 done
 "#;

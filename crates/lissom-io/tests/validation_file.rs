@@ -107,15 +107,17 @@ fn coupling_without_modes_is_read_back() {
     result["arm"]["modes"] = json!([]);
     result["arm"]["tips"][0]["shape"] = json!([]);
     result["arm"]["damping_at_points_per_s"] = json!([]);
-    result["arm"]["coupling_by_tip_nm_per_rad"] = json!([1.25]);
+    result["arm"]["coupling_by_tip"] = json!({ "value": [1.25], "unit": "N·m/rad" });
     let placed = place(&result.to_string());
     let read = read_arm(&placed.path, &channels(Some(CONSTANT))).unwrap();
     assert_eq!(read.coupling_alone_nm_per_rad, [1.25]);
     assert!(!read.moves());
-    for wrong in [json!([1.25, 2.0]), json!([1e300])] {
-        result["arm"]["coupling_by_tip_nm_per_rad"] = wrong;
+    for (wrong, unit) in
+        [(vec![1.25, 2.0], "N·m/rad"), (vec![1e300], "N·m/rad"), (vec![1.25], "A/rad")]
+    {
+        result["arm"]["coupling_by_tip"] = json!({ "value": wrong, "unit": unit });
         let error = refused(&result, &channels(Some(CONSTANT)));
-        assert!(error.to_string().contains("arm.coupling_by_tip_nm_per_rad"), "{error}");
+        assert!(error.to_string().contains("arm.coupling_by_tip"), "{error}");
     }
 }
 
@@ -142,12 +144,17 @@ fn what_is_no_arm_of_this_log_is_refused_with_a_way_out() {
     let mut no_tips = own.clone();
     no_tips.tips.clear();
     assert!(matches!(refused(&good, &no_tips), ResultError::OtherTips { .. }));
+    let number = |value: f64, unit: &str| json!({ "value": value, "unit": unit });
+    let ripple = json!({
+        "period": number(1e-12, "rad"), "cosine": number(0.01, "N·m"), "sine": number(0.0, "N·m"),
+    });
     for (key, value) in [
-        ("/arm/inertia_kg_m2", json!(-1.0)),
+        ("/arm/inertia/value", json!(-1.0)),
         ("/arm/modes/0/natural_frequency_rad_s", json!(0.0)),
-        ("/arm/modes/0/stiffness_nm_per_rad", json!(-0.1)),
-        ("/arm/coulomb_nm", json!(1e300)),
-        ("/arm/ripples", json!([{ "period_rad": 1e-12, "cosine_nm": 0.01, "sine_nm": 0.0 }])),
+        ("/arm/modes/0/stiffness/value", json!(-0.1)),
+        ("/arm/coulomb/value", json!(1e300)),
+        ("/arm/coulomb/unit", json!("A")),
+        ("/arm/ripples", json!([ripple])),
         ("/arm/tips/0/shape", json!([1.0, 2.0])),
         ("/arm/damping_at_points_per_s", json!([1.0, 2.0, 3.0])),
     ] {
@@ -157,9 +164,9 @@ fn what_is_no_arm_of_this_log_is_refused_with_a_way_out() {
     }
     for (key, value, message) in [
         (
-            "/arm/inertia_kg_m2",
+            "/arm/inertia/value",
             json!("heavy"),
-            "`arm` cannot be read: `inertia_kg_m2`: invalid type: string \"heavy\", expected f64",
+            "`arm.inertia.value` cannot be read: invalid type: string \"heavy\", expected f64",
         ),
         (
             "/arm/from",

@@ -359,7 +359,7 @@ def test_logs_describe_themselves(tmp_path: Path, logs: dict[str, dict[str, Any]
     campaign = lissom.Campaign.of_logs(path, torque_constant=0.2)
     assert any("held" in note for note in campaign.notes)
     assert np.allclose(campaign.runs[0].motor, logs["run-01"]["theta_m"], atol=1e-7)
-    found = lissom.identify(pickle.loads(pickle.dumps(campaign)), effort="quick")["drive.inertia_kg_m2"]
+    found = lissom.identify(pickle.loads(pickle.dumps(campaign)), effort="quick")["drive.inertia"]
     assert found == pytest.approx(2e-3, rel=0.01)
     assert np.array_equal(campaign.like(path).runs[0].motor, campaign.runs[0].motor)
     part = tmp_path / "part.csv"

@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 from conftest import ARM, PLAN, SIGNALS
 
-KEYS = ["friction.coulomb_nm", "friction.viscous_nm_s_per_rad", "drive.inertia_kg_m2"]
+KEYS = ["friction.coulomb", "friction.viscous", "drive.inertia"]
 CAMPAIGNS = 150
 #: Four standard errors of a correlation of so many pairs that have none.
 MARGIN = 4 / np.sqrt(CAMPAIGNS)
@@ -23,8 +23,8 @@ def test_its_diagonal_is_the_square_of_the_standard_errors(result: lissom.Result
     assert np.array_equal(covariance, covariance.T)
     some, part = result.covariance(KEYS[::-1])
     assert some == KEYS[::-1] and part[0, 1] == covariance[keys.index(KEYS[2]), keys.index(KEYS[1])]
-    with pytest.raises(lissom.InputError, match="no covariance of friction.forward_nm"):
-        result.covariance(["friction.forward_nm"])
+    with pytest.raises(lissom.InputError, match="no covariance of friction.forward"):
+        result.covariance(["friction.forward"])
 
 
 def correlation(covariance: Any) -> Any:

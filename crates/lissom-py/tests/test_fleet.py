@@ -62,7 +62,7 @@ def complete(fleet: lissom.Fleet) -> None:
     assert fleet.rows == MACHINES * LOGS and fleet.failed == 0
     assert len(set(fleet["log"])) == MACHINES * LOGS
     for machine in range(MACHINES):
-        found = fleet["friction.coulomb_nm"][fleet["machine"] == f"m{machine}"]
+        found = fleet["friction.coulomb"][fleet["machine"] == f"m{machine}"]
         assert np.allclose(found, COULOMB * (1 + 0.1 * machine), rtol=0.05)
 
 
@@ -77,17 +77,17 @@ def test_rows_are_the_results_of_the_logs(folder: Path, tmp_path: Path) -> None:
     row = list(fleet["log"]).index(name)
     effort = fleet["effort"][row]
     if effort == "quick":
-        assert fleet["friction.coulomb_nm"][row] == alone["friction.coulomb_nm"]
+        assert fleet["friction.coulomb"][row] == alone["friction.coulomb"]
     result = fleet.result(name)
-    coulomb = result["friction.coulomb_nm"]
-    assert coulomb is not None and fleet["friction.coulomb_nm.std"][row] == coulomb.std
+    coulomb = result["friction.coulomb"]
+    assert coulomb is not None and fleet["friction.coulomb.std"][row] == coulomb.std
     hashed = subprocess.run(["sha256sum", name], capture_output=True, text=True, check=True).stdout.split()[0]
     assert fleet["input_sha256"][row] == hashed
     assert set(fleet["version"]) == {lissom.__version__}
     frame = fleet.to_frame()
     assert len(frame) == fleet.rows and str(frame["time"].dt.tz) == "UTC"
     read = pd.concat([pd.read_parquet(file) for file in fleet.files])
-    assert np.array_equal(read["friction.coulomb_nm"], fleet["friction.coulomb_nm"])
+    assert np.array_equal(read["friction.coulomb"], fleet["friction.coulomb"])
     with pytest.raises(lissom.InputError, match="is not a log of this fleet"):
         fleet.result("other.csv")
 
@@ -99,14 +99,14 @@ def test_command_writes_the_same_rows(folder: Path, tmp_path: Path) -> None:
     subprocess.run([*command, "--out", str(tmp_path / "command"), "--pattern", PATTERN], check=True, capture_output=True)
     other = lissom.Fleet(tmp_path / "command")
     order, others = np.argsort(fleet["log"]), np.argsort(other["log"])
-    for name in ("log", "friction.coulomb_nm", "drive.inertia_kg_m2.std", "time", "machine"):
+    for name in ("log", "friction.coulomb", "drive.inertia.std", "time", "machine"):
         assert np.array_equal(fleet[name][order], other[name][others])
     summary = lissom.FleetSummary(json.dumps(fleet.summary().to_dict()))
     page = tmp_path / "page.html"
     summary.report(page)
-    assert b"friction.coulomb_nm" in page.read_bytes()
+    assert b"friction.coulomb" in page.read_bytes()
     assert summary.machines == MACHINES and summary.identified == MACHINES * LOGS
-    assert "friction.coulomb_nm: median" in repr(summary)
+    assert "friction.coulomb: median" in repr(summary)
 
 
 def test_executors(folder: Path, tmp_path: Path) -> None:
@@ -271,7 +271,7 @@ def test_tables_in_memory(folder: Path, tmp_path: Path, logs: dict[str, dict[str
     tables = {name: pd.DataFrame(table) for name, table in logs.items()}
     fleet = lissom.fleet(tables, like, out=tmp_path / "out")
     assert sorted(fleet["log"]) == sorted(tables) and fleet.failed == 0
-    assert np.allclose(fleet["friction.coulomb_nm"], COULOMB, rtol=0.05)
+    assert np.allclose(fleet["friction.coulomb"], COULOMB, rtol=0.05)
     with pytest.raises(lissom.InputError, match="is an address"):
         lissom.fleet({"a": "s3://bucket/log.csv"}, like, out=tmp_path / "bad")
     bad = {**tables, "complex": {"t": np.array([1j, 2]), "i": [1, 2], "theta_m": [1, 2]}}
@@ -430,7 +430,7 @@ def of_folders(fleet: lissom.Fleet, made: Path, root: str) -> None:
         campaign.write_text((made / "campaign.toml").read_text())
         alone = lissom.identify(lissom.Campaign.load(campaign), effort="quick")
         campaign.unlink()
-        assert fleet["friction.coulomb_nm"][row] == alone["friction.coulomb_nm"]
+        assert fleet["friction.coulomb"][row] == alone["friction.coulomb"]
         content = b"".join((made / "logs" / day / file).read_bytes() for file in RUNS)
         assert fleet["input_sha256"][row] == hashlib.sha256(content).hexdigest()
 

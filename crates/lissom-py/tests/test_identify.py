@@ -18,9 +18,9 @@ from conftest import COULOMB, INERTIA, SIGNALS, VISCOUS
 
 def test_the_parameters_are_those_that_were_simulated(result: lissom.Result) -> None:
     truth = {
-        "friction.coulomb_nm": COULOMB,
-        "friction.viscous_nm_s_per_rad": VISCOUS,
-        "drive.inertia_kg_m2": INERTIA,
+        "friction.coulomb": COULOMB,
+        "friction.viscous": VISCOUS,
+        "drive.inertia": INERTIA,
     }
     for key, value in truth.items():
         found = result[key]
@@ -101,7 +101,7 @@ def test_ctrl_c_ends_the_work_and_leaves_the_best_result(logs: dict[str, dict[st
     assert heard < 0.2, f"{heard} s after Ctrl-C, {asked[0] - began} s after the beginning"
     assert isinstance(caught.value, lissom.Interrupted)
     best = caught.value.result
-    assert best is not None and best["friction.coulomb_nm"] == pytest.approx(COULOMB, rel=0.05)
+    assert best is not None and best["friction.coulomb"] == pytest.approx(COULOMB, rel=0.05)
     assert caught.value.result is best
 
 
@@ -133,8 +133,8 @@ def test_a_required_parameter_that_is_refused_is_an_error(logs: dict[str, dict[s
     still = {**part, "theta_m": np.cumsum(np.full(400, 2e-3))}
     campaign = lissom.Campaign(still, **SIGNALS)
     result = lissom.identify(campaign, effort="quick")
-    assert not result.ok and result["drive.inertia_kg_m2"] is None
-    with pytest.raises(lissom.RefusedError, match=r"drive\.inertia_kg_m2") as caught:
+    assert not result.ok and result["drive.inertia"] is None
+    with pytest.raises(lissom.RefusedError, match=r"drive\.inertia") as caught:
         lissom.identify(campaign, effort="quick", require=["drive"])
     assert caught.value.findings and caught.value.hint
     assert isinstance(caught.value, ValueError)

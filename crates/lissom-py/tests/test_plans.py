@@ -19,7 +19,7 @@ def test_a_plan_gives_the_precision_that_it_expects(tmp_path: Path) -> None:
     assert plan.ok and pickle.loads(pickle.dumps(plan)).text == plan.text
     logs = lissom.simulate(arm, plan)
     result = lissom.identify(lissom.Campaign(logs, **SIGNALS))
-    for key in ("friction.coulomb_nm", "friction.viscous_nm_s_per_rad", "drive.inertia_kg_m2"):
+    for key in ("friction.coulomb", "friction.viscous", "drive.inertia"):
         found = result[key]
         assert found is not None and found.std < 0.02 * found, key
     plan.save(tmp_path / "plan.toml")
@@ -48,9 +48,9 @@ def test_a_changed_parameter_is_clear_and_the_others_are_not(result: lissom.Resu
     heavier = {**ARM, "drive": {**ARM["drive"], "inertia": "2.1e-3 kg*m^2"}}
     other = lissom.identify(lissom.Campaign(lissom.simulate(heavier, PLAN), **SIGNALS), effort="quick")
     table = lissom.compare({"before": result, "after": other}).set_index("key")
-    assert table.loc["drive.inertia_kg_m2", "clear"]
-    assert table.loc["drive.inertia_kg_m2", "relative"] == pytest.approx(0.05, rel=0.05)
-    assert not table.loc["friction.offset_nm", "clear"]
+    assert table.loc["drive.inertia", "clear"]
+    assert table.loc["drive.inertia", "relative"] == pytest.approx(0.05, rel=0.05)
+    assert not table.loc["friction.offset", "clear"]
     with pytest.raises(lissom.InputError, match="same estimates"):
         lissom.compare([result, result])
     with pytest.raises(lissom.InputError, match="only result"):

@@ -31,7 +31,7 @@ def test_plots_go_into_given_axes(result: lissom.Result) -> None:
     assert result.plot.bode(ax=axes[:, 0])[0] is axes[0, 0]
     assert result.plot.friction(ax=axes[0, 1]) is axes[0, 1]
     line = next(line for line in axes[0, 1].lines if line.get_label() == "Coulomb and viscous friction")
-    assert line.get_ydata()[0] == pytest.approx(result.friction["forward_nm"])
+    assert line.get_ydata()[0] == pytest.approx(result.friction["forward"])
     with pytest.raises(lissom.InputError, match="2 axes are needed"):
         result.plot.bode(ax=axes[0, 0])
     plt.close("all")
@@ -73,7 +73,7 @@ def test_friction_with_a_load_is_drawn_with_its_sign(result: lissom.Result) -> N
     for point in content["friction"]["curve"]:
         for key in [key for key in point if key.startswith("friction")]:
             point[key]["value"] = -0.7 if point["direction"] == "backward" else 0.9
-    content["friction"]["forward_nm"]["value"], content["friction"]["backward_nm"]["value"] = 0.9, -0.7
+    content["friction"]["forward"]["value"], content["friction"]["backward"]["value"] = 0.9, -0.7
     axes = lissom.Result(json.dumps(content).encode()).plot.friction()
     drawn = axes.containers[0][0]
     values = np.array(drawn.get_ydata(), dtype=float)

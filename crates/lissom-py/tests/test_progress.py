@@ -54,4 +54,4 @@ def test_an_exception_of_the_function_ends_the_search_and_keeps_the_best_result(
     interrupted = caught.value.__cause__
     assert isinstance(interrupted, lissom.Interrupted)
     best = interrupted.result
-    assert best is not None and best["friction.coulomb_nm"] == pytest.approx(0.02, rel=0.05)
+    assert best is not None and best["friction.coulomb"] == pytest.approx(0.02, rel=0.05)

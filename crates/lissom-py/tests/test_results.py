@@ -19,12 +19,12 @@ def test_keys_and_units_are_those_of_the_table(result: lissom.Result) -> None:
     assert list(table.index) == list(result.keys()) == list(result) and table.index.name == "key"
     for key, unit in table["unit"].items():
         assert unit_of(str(key)) == unit, key
-    assert table.loc["friction.coulomb_nm", "value"] == result["friction.coulomb_nm"]
+    assert table.loc["friction.coulomb", "value"] == result["friction.coulomb"]
     assert isinstance(result, Mapping) and dict(result) == dict(result.items())
-    assert result.get("friction.nothing") is None and result.get("drive.inertia_kg_m2") in result.values()
-    assert result["friction.coulomb_nm"] == result.friction["coulomb_nm"]
-    assert "friction.coulomb_nm" in result and len(result) == len(table)
-    methods = result["methods.regression.coulomb_nm"]
+    assert result.get("friction.nothing") is None and result.get("drive.inertia") in result.values()
+    assert result["friction.coulomb"] == result.friction["coulomb"]
+    assert "friction.coulomb" in result and len(result) == len(table)
+    methods = result["methods.regression.coulomb"]
     assert methods is not None and methods.unit == "N·m"
     for wrong in ("friction.coulomb", "friction", "beam.modes[7].damping_ratio", "methods.regression.rows"):
         with pytest.raises(KeyError):
@@ -40,7 +40,7 @@ def test_a_result_is_its_bytes(result: lissom.Result, tmp_path: Path) -> None:
     # A fresh result takes its parameters directly, a read one from its bytes.
     assert copied.to_frame().equals(result.to_frame())
     with pytest.raises(TypeError):
-        result.friction["coulomb_nm"] = None  # type: ignore[index]
+        result.friction["coulomb"] = None  # type: ignore[index]
     with pytest.raises(ValueError, match="read-only"):
         result.frequency[0] = 1.0
 
@@ -108,7 +108,7 @@ def test_models_of_python_control(result: lissom.Result) -> None:
     control = pytest.importorskip("control")
     omega = 7.0
     space, transfer = result.to_control(), result.to_control(kind="tf")
-    inertia, viscous = result["drive.inertia_kg_m2"], result["friction.viscous_nm_s_per_rad"]
+    inertia, viscous = result["drive.inertia"], result["friction.viscous"]
     assert inertia is not None and viscous is not None
     expected = 0.2 / (inertia * (1j * omega) ** 2 + viscous * 1j * omega)
     assert space(1j * omega) == pytest.approx(expected, rel=1e-9)
@@ -127,7 +127,7 @@ def test_responses_are_arrays(result: lissom.Result) -> None:
 
 
 def test_exports(result: lissom.Result, tmp_path: Path) -> None:
-    assert f'frictionloss="{float(result.friction["coulomb_nm"] or 0)!r}"' in result.to_mjcf()
+    assert f'frictionloss="{float(result.friction["coulomb"] or 0)!r}"' in result.to_mjcf()
     robot = tmp_path / "robot.urdf"
     robot.write_text('<robot><joint name="j" type="revolute"/></robot>')
     assert "dynamics" in result.to_urdf("j", robot)
@@ -147,9 +147,9 @@ def test_refused_estimates_are_none(logs: Any) -> None:
     columns = {key: values[:400] for key, values in logs["run-02"].items()}
     columns["theta_m"] = np.cumsum(np.full(400, 2e-3))
     result = lissom.identify(lissom.Campaign(columns, **SIGNALS), effort="quick")
-    assert result.drive["inertia_kg_m2"] is None
+    assert result.drive["inertia"] is None
     frame = result.to_frame()
-    assert frame.loc["drive.inertia_kg_m2", "refused"]
+    assert frame.loc["drive.inertia", "refused"]
     assert "refused" in repr(result) and "refused" in result._repr_html_()
 
 

@@ -203,7 +203,7 @@ fn the_next_experiment_is_planned_and_tried_with_the_arm_that_was_found() {
     let tried = job["result"].as_u64().unwrap_or_else(|| panic!("{job}"));
     let file =
         |id: u64| client.send("GET", &format!("/api/results/{id}/files/result.json"), b"").json();
-    let inertia = |id: u64| file(id)["drive"]["inertia_kg_m2"]["value"].as_f64().unwrap();
+    let inertia = |id: u64| file(id)["drive"]["inertia"]["value"].as_f64().unwrap();
     assert!(
         (inertia(tried) / inertia(result) - 1.0).abs() < 0.05,
         "{} {}",

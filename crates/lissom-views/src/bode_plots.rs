@@ -61,8 +61,7 @@ fn points(result: &ResultFile, series: &SeriesEntry) -> Vec<Point> {
 
 /// The model of the motor; none if its inertia is refused, which the model then contains.
 pub(crate) fn motor_model(result: &ResultFile) -> Option<&TransferFunctionEntry> {
-    let is_given = result.drive.inertia.any().is_some_and(Option::is_some);
-    result.models.motor.as_ref().filter(|_| is_given)
+    result.models.motor.as_ref().filter(|_| result.drive.inertia.is_some())
 }
 
 /// A transfer function of a result.

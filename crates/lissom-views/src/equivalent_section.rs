@@ -55,8 +55,8 @@ pub fn rows_for_use(
         row.extend(a.iter().chain([b]).map(|x| number(*x)));
         rows.push(row);
     }
-    if let (Some(Some(h)), Some(Some(h_motor))) = (form.h.get(names), form.h_motor.get(names)) {
-        let h = h.iter().chain([h_motor]).map(|x| number(*x));
+    if let (Some(h), Some(h_motor)) = (&form.h, &form.h_motor) {
+        let h = h.value.iter().chain([&h_motor.value]).map(|x| number(*x));
         rows.push(std::iter::once(torque_name(names)).chain(h).collect());
     }
     rows

@@ -29,8 +29,8 @@ pub fn plot(names: UnitNames, result: &ResultFile) -> Option<LinePlot> {
         Axis::linear(format!("friction against the motion ({})", names.torque_unit())),
     )
     .subtitle("points: without a friction law; bars: 95 % interval; solid lines: the friction law");
-    let found = |speed: f64, direction| result.friction.at(names, speed, direction);
-    let point = |p: &CurvePointEntry| Some((*p.speed.get(names)?, given(p.friction.get(names))?));
+    let found = |speed: f64, direction| result.friction.at(speed, direction);
+    let point = |p: &CurvePointEntry| Some((p.speed.value, given(&p.friction)?));
     for (name, direction, role) in DIRECTIONS {
         let of_direction = curve.iter().filter(|p| p.direction == direction);
         let points: Vec<_> = of_direction.filter_map(point).collect();
@@ -45,7 +45,7 @@ pub fn plot(names: UnitNames, result: &ResultFile) -> Option<LinePlot> {
             plot = plot.trace(Trace::line("", role, (0..=LINE).map(at).collect(), line));
         }
     }
-    Some(match velocity_friction::in_torque(names, result) {
+    Some(match velocity_friction::in_torque(result) {
         Some(directions) => directions.into_iter().fold(plot, constant_velocities),
         None => plot,
     })
@@ -70,7 +70,7 @@ fn constant_velocities(plot: LinePlot, found: FrictionOfDirection) -> LinePlot {
 }
 
 /// Table of all terms that were tried, with the numbers of the tests.
-pub fn table(names: UnitNames, law: &FrictionLawEntry) -> Table {
+pub fn table(law: &FrictionLawEntry) -> Table {
     let mut table = Table::new(
         "Terms tried in addition to Coulomb friction, one viscous coefficient and an offset",
         &[
@@ -85,12 +85,11 @@ pub fn table(names: UnitNames, law: &FrictionLawEntry) -> Table {
         ],
     );
     for c in &law.candidates {
-        let amplitude = c.amplitude.any();
         table = table.row([
-            term(names, &c.term),
+            term(&c.term),
             c.beside_terms.to_string(),
-            amplitude.map_or_else(String::new, |e| significant(e.value, 5)),
-            amplitude.map_or_else(String::new, |e| significant(e.std, 2)),
+            significant(c.amplitude.value, 5),
+            significant(c.amplitude.std, 2),
             format!("{:.2}", 100.0 * c.saved),
             c.standard_errors.map_or_else(String::new, |t| format!("{t:.1}")),
             (if c.across_kinds { "yes" } else { "no" }).to_owned(),
@@ -101,12 +100,11 @@ pub fn table(names: UnitNames, law: &FrictionLawEntry) -> Table {
 }
 
 /// Name of a term with its scale.
-fn term(names: UnitNames, term: &LawTermEntry) -> String {
-    let (name, angle) = (term.term.name(), names.angle());
-    let over = term.period.get(names);
-    match (term.speed.get(names), over) {
-        (Some(speed), _) => format!("{name}, {} {angle}/s", significant(*speed, 4)),
-        (None, Some(over)) => format!("{name}, {} {angle}", significant(*over, 4)),
-        (None, None) => name.to_owned(),
-    }
+fn term(term: &LawTermEntry) -> String {
+    let name = term.term.name();
+    let scale = term.speed.as_ref().or(term.period.as_ref());
+    scale.map_or_else(
+        || name.to_owned(),
+        |scale| format!("{name}, {} {}", significant(scale.value, 4), scale.unit),
+    )
 }

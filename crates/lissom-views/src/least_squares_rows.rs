@@ -24,7 +24,7 @@ pub fn least_squares_rows(names: UnitNames, result: &ResultFile) -> Option<Least
         return None;
     }
     let fit = result.methods.least_squares.as_ref()?;
-    let [slowest, fastest] = *fit.speed_range.get(names)?;
+    let [slowest, fastest] = fit.speed_range.value;
     let words = format!(
         "least squares of all motion with Coulomb friction and one viscous coefficient, at speeds from {} to {} {}/s; \
          residual torque {:.2} %",
@@ -38,12 +38,12 @@ pub fn least_squares_rows(names: UnitNames, result: &ResultFile) -> Option<Least
 
 fn rows(names: UnitNames, fit: &LeastSquaresEntry) -> Vec<ParameterRow> {
     let torque = || names.torque_unit().to_owned();
-    let gravity = fit.gravity.as_ref().and_then(|g| g.amplitude.get(names));
+    let gravity = fit.gravity.as_ref().map(|g| &g.amplitude);
     let all = [
-        ("Coulomb friction", COULOMB, given(fit.coulomb.coulomb.get(names)), torque()),
-        ("offset", OFFSET, given(fit.coulomb.offset.get(names)), torque()),
-        ("viscous friction", VISCOUS, given(fit.viscous.get(names)), names.viscous_unit()),
-        (names.inertia_name(), INERTIA, given(fit.inertia.get(names)), names.inertia_unit()),
+        ("Coulomb friction", COULOMB, given(&fit.coulomb.coulomb), torque()),
+        ("offset", OFFSET, given(&fit.coulomb.offset), torque()),
+        ("viscous friction", VISCOUS, given(&fit.viscous), names.viscous_unit()),
+        (names.inertia_name(), INERTIA, given(&fit.inertia), names.inertia_unit()),
         ("gravity, m·g·l", GRAVITY, gravity.map(EstimateEntry::estimate), torque()),
     ];
     let all = all.into_iter().filter(|(_, _, estimate, _)| estimate.is_some());

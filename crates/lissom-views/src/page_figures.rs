@@ -26,7 +26,7 @@ pub const OF_LOGS: [&str; 5] =
 /// | `autocorrelation-motor`, `cross-correlation-motor`, … | residual of a channel |
 pub fn page_figures(content: PageContent<'_>) -> Vec<NamedFigure> {
     let PageContent { result, logs, reference, .. } = content;
-    let Some(names) = result.names() else { return Vec::new() };
+    let names = result.names();
     let mut figures = result_figures(result, reference);
     for (name, _, plot) in pole_zero_map::maps(result) {
         figures.push(NamedFigure::new(name, plot));

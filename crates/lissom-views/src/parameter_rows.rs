@@ -21,7 +21,7 @@ const SAME_BY_DIRECTION: f64 = 2.0;
 pub struct ParameterRow {
     /// Name of the parameter; indented if it belongs to the row above.
     pub name: String,
-    /// Its key in `result.json`, without the suffix of the unit: what findings affect.
+    /// Its key in `result.json`: what findings affect.
     pub key: &'static str,
     /// The estimate; `None` if it is refused.
     pub estimate: Option<Estimate>,
@@ -32,7 +32,9 @@ pub struct ParameterRow {
 }
 
 /// Friction by the method of constant velocities, one row for each parameter.
-pub fn classical_rows(names: UnitNames, found: &ConstantVelocityEntry) -> Vec<ParameterRow> {
+pub fn classical_rows(result: &ResultFile, found: &ConstantVelocityEntry) -> Vec<ParameterRow> {
+    let names = result.names();
+    let per_command = 1.0 / result.torque_per_command.unwrap_or(1.0);
     let line = |direction| found.lines.iter().find(|line| line.direction == direction);
     let (forward, backward) = (line(DirectionName::Forward), line(DirectionName::Backward));
     let command = || names.command_unit().to_owned();
@@ -43,21 +45,23 @@ pub fn classical_rows(names: UnitNames, found: &ConstantVelocityEntry) -> Vec<Pa
         unit,
         known: None,
     };
-    let coulomb = |line: Option<&FrictionLineEntry>| given(line?.coulomb.in_command(names));
-    let viscous = |line: Option<&FrictionLineEntry>| Some(line?.viscous.get(names)?.estimate());
+    let coulomb =
+        |line: Option<&FrictionLineEntry>| Some(given(&line?.coulomb)?.scaled(per_command));
+    let viscous = |line: Option<&FrictionLineEntry>| Some(line?.viscous.estimate());
+    let both = given(&found.coulomb).map(|e| e.scaled(per_command));
     vec![
-        row("Coulomb friction", given(found.coulomb.in_command(names)), command()),
+        row("Coulomb friction", both, command()),
         row("  forward", coulomb(forward), command()),
         row("  backward", coulomb(backward), command()),
-        row("viscous friction", given(found.viscous.get(names)), names.viscous_unit()),
+        row("viscous friction", given(&found.viscous), names.viscous_unit()),
         row("  forward", viscous(forward), names.viscous_unit()),
         row("  backward", viscous(backward), names.viscous_unit()),
     ]
 }
 
 /// An estimate of a result that may be refused.
-pub(crate) fn given(entry: Option<&Option<EstimateEntry>>) -> Option<Estimate> {
-    entry?.as_ref().map(EstimateEntry::estimate)
+pub(crate) fn given(entry: &Option<EstimateEntry>) -> Option<Estimate> {
+    entry.as_ref().map(EstimateEntry::estimate)
 }
 
 /// All parameters of the result.
@@ -78,13 +82,14 @@ pub fn parameter_rows(
     };
     let mean = reference.map(|r| 0.5 * (r.coulomb_nm.0 + r.coulomb_nm.1));
     let coulomb = "Coulomb friction";
-    let mean_coulomb = given(c.coulomb.get(names));
-    let forward = given(c.forward.get(names));
-    let backward = given(c.backward.get(names));
-    let offset = given(c.offset.get(names));
+    let mean_coulomb = given(&c.coulomb);
+    let forward = given(&c.forward);
+    let backward = given(&c.backward);
+    let offset = given(&c.offset);
     if names.torque_known {
         let unit = names.command_unit().to_owned();
-        add(COULOMB, coulomb, given(c.coulomb.in_command(names)), unit, mean.map(|m| m / constant));
+        let in_command = mean_coulomb.map(|e| e.scaled(1.0 / constant));
+        add(COULOMB, coulomb, in_command, unit, mean.map(|m| m / constant));
         add(COULOMB, "  as a torque", mean_coulomb, torque(), mean);
     } else {
         add(COULOMB, coulomb, mean_coulomb, torque(), mean);
@@ -106,23 +111,22 @@ pub fn parameter_rows(
         add(OFFSET, "  offset, (forward − backward)/2", offset, torque(), known);
     }
     let viscous = reference.map(|r| r.viscous_nm_s_per_rad);
-    add(VISCOUS, "viscous friction", given(f.viscous.get(names)), names.viscous_unit(), viscous);
+    add(VISCOUS, "viscous friction", given(&f.viscous), names.viscous_unit(), viscous);
     for row in f.law.iter().flat_map(|law| law_rows(names, law)) {
         add(row.key, &row.name, row.estimate, row.unit, None);
     }
     let inertia = reference.map(|r| r.inertia_kg_m2);
-    let estimate = given(result.drive.inertia.get(names));
+    let estimate = given(&result.drive.inertia);
     add(INERTIA, names.inertia_name(), estimate, names.inertia_unit(), inertia);
     if let Some(gravity) = &result.gravity {
         let known = reference.and_then(|r| r.gravity);
         let mgl = known.map(|load| load.amplitude_nm());
-        let amplitude = gravity.amplitude.get(names).map(EstimateEntry::estimate);
-        add(GRAVITY, "gravity, m·g·l", amplitude, torque(), mgl);
+        add(GRAVITY, "gravity, m·g·l", Some(gravity.amplitude.estimate()), torque(), mgl);
         let phase = known.map(|load| load.phase_rad().to_degrees());
         let degrees = gravity.phase_rad.estimate().scaled(1.0_f64.to_degrees());
         add(GRAVITY, "  phase φ of m·g·l·sin(θ + φ)", Some(degrees), "deg".to_owned(), phase);
-        if let Some(constant) = given(gravity.torque_constant.get(names)) {
-            let unit = format!("N·m/{}", names.command_unit());
+        if let Some(constant) = given(&gravity.torque_constant) {
+            let unit = names.torque_constant_unit();
             add(GRAVITY, "  torque constant from m·g·l", Some(constant), unit, None);
         }
     }
@@ -137,36 +141,30 @@ fn law_rows(names: UnitNames, law: &LawEntry) -> Vec<ParameterRow> {
     let mut add = |key: &'static str, name: &str, estimate, unit: String| {
         rows.push(ParameterRow { name: name.to_owned(), key, estimate, unit, known: None });
     };
-    add(
-        COULOMB,
-        "law of friction: Coulomb friction",
-        given(law.coulomb.coulomb.get(names)),
-        torque(),
-    );
-    add(VISCOUS, "  viscous friction", given(law.viscous.get(names)), names.viscous_unit());
+    add(COULOMB, "law of friction: Coulomb friction", given(&law.coulomb.coulomb), torque());
+    add(VISCOUS, "  viscous friction", given(&law.viscous), names.viscous_unit());
     for (name, one_way) in [
-        ("  viscous friction forward", law.viscous_forward.get(names)),
-        ("  viscous friction backward", law.viscous_backward.get(names)),
+        ("  viscous friction forward", &law.viscous_forward),
+        ("  viscous friction backward", &law.viscous_backward),
     ] {
         let Some(one_way) = one_way else { continue };
         add(VISCOUS, name, Some(one_way.estimate()), names.viscous_unit());
     }
     let terms = &law.terms;
     if let Some(near) = &terms.near_rest
-        && let Some(amplitude) = given(near.amplitude.get(names))
+        && let Some(amplitude) = given(&near.amplitude)
     {
-        if let Some(at_rest) = given(near.static_friction.get(names)) {
+        if let Some(at_rest) = given(&near.static_friction) {
             add(COULOMB, "  static friction", Some(at_rest), torque());
         }
         let (change, size) = if amplitude.value < 0.0 { ("lower", -1.0) } else { ("higher", 1.0) };
         let name = format!("  near standstill {change} by");
         add(COULOMB, &name, Some(amplitude.scaled(size)), torque());
-        let speed = near.speed.get(names).map(EstimateEntry::estimate);
-        add(COULOMB, "    below a speed of about", speed, format!("{}/s", names.angle()));
+        let speed = Some(near.speed.estimate());
+        add(COULOMB, "    below a speed of about", speed, names.speed_unit());
     }
-    if let Some(root) = terms.root.get(names) {
-        let unit = format!("{}/√({}/s)", names.torque_unit(), names.angle());
-        add(COULOMB, "  per square root of speed", Some(root.estimate()), unit);
+    if let Some(root) = &terms.root {
+        add(COULOMB, "  per square root of speed", Some(root.estimate()), names.root_unit());
     }
     if let Some(with_load) = &terms.with_load {
         let estimate = Some(with_load.estimate());
@@ -176,8 +174,8 @@ fn law_rows(names: UnitNames, law: &LawEntry) -> Vec<ParameterRow> {
         [("  friction ripple", &terms.ripples), ("  torque ripple", &terms.torque_ripples)]
     {
         for ripple in ripples {
-            let period = ripple.period.get(names).map(EstimateEntry::estimate);
-            add(COULOMB, name, given(ripple.amplitude.get(names)), torque());
+            let period = Some(ripple.period.estimate());
+            add(COULOMB, name, given(&ripple.amplitude), torque());
             add(COULOMB, "    period", period, names.angle().to_owned());
         }
     }
@@ -195,9 +193,8 @@ fn beam_rows(
     let mut add = |key: &'static str, name: &str, estimate, unit: String, known: Option<f64>| {
         rows.push(ParameterRow { name: name.to_owned(), key, estimate, unit, known });
     };
-    let coupling = given(result.beam.coupling.get(names));
-    let tips = result.beam.coupling_by_tip.get(names).is_some_and(|tips| !tips.is_empty());
-    if tips || coupling.is_some() {
+    let coupling = given(&result.beam.coupling);
+    if !result.beam.coupling_by_tip.is_empty() || coupling.is_some() {
         let known = arm.map(|a| a.dynamics().coupling_motor);
         add(COUPLING, "coupling to the beam", coupling, names.coupling_unit(), known);
     }

@@ -46,12 +46,11 @@ pub struct PageContent<'a> {
     pub hints: &'a ProgramHints,
 }
 
-/// The page of a result. Only what is predicted of logs is not in `result.json`. Without the units of an axis, which every
-/// result of [`ResultFile::of`] has, the page is empty.
+/// The page of a result. Only what is predicted of logs is not in `result.json`.
 pub fn page(title: &str, content: PageContent<'_>) -> Page {
     let page = Page::new(title);
     let PageContent { result, logs, reference, hints } = content;
-    let Some(names) = result.names() else { return page };
+    let names = result.names();
     let rows = parameter_rows(names, result, reference);
     let findings = result.findings.iter().enumerate();
     let findings: Vec<ReportFinding> = findings.map(|(k, f)| finding(f, hints.of(k))).collect();
@@ -112,7 +111,7 @@ pub fn page(title: &str, content: PageContent<'_>) -> Page {
                  standard errors, describes left-out stretches of one kind better as well, reduces the \
                  residual to 0.9 or less, and friction at rest stays positive.",
             )
-            .table(&friction_curve::table(names, law));
+            .table(&friction_curve::table(law));
     }
     if let Some(plot) = friction_plot(names, result) {
         page = page
@@ -122,7 +121,7 @@ pub fn page(title: &str, content: PageContent<'_>) -> Page {
                 "The command that maintains a velocity, both directions as magnitudes. Solid: straight \
                  lines through the points. Dashed: extrapolated to zero speed.",
             )
-            .key_figures("Friction from constant velocities", &constant_velocity_values(names, result))
+            .key_figures("Friction from constant velocities", &constant_velocity_values(result))
             .table(&stretch_table(names, result));
     }
     let intervals = hints.equivalent_intervals;
@@ -332,9 +331,9 @@ fn key_figure(row: ParameterRow, note: String) -> KeyFigure {
     }
 }
 
-fn constant_velocity_values(names: UnitNames, result: &ResultFile) -> Vec<KeyFigure> {
+fn constant_velocity_values(result: &ResultFile) -> Vec<KeyFigure> {
     let found = result.methods.constant_velocity.as_ref();
-    let rows = found.map(|found| classical_rows(names, found));
+    let rows = found.map(|found| classical_rows(result, found));
     rows.unwrap_or_default().into_iter().map(|row| key_figure(row, String::new())).collect()
 }
 

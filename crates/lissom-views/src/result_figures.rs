@@ -11,7 +11,7 @@ use crate::velocity_friction::friction_plot;
 /// The figures, each with its name: `bode-motor`, `bode-tip-1` and so on, `friction-velocity`, `friction-curve`. Those are
 /// missing that the runs do not give. `reference` adds a line for a known arm to the Bode plots.
 pub fn result_figures(result: &ResultFile, reference: Option<&Reference>) -> Vec<NamedFigure> {
-    let Some(names) = result.names() else { return Vec::new() };
+    let names = result.names();
     let bode = bode_plots(names, result, reference).into_iter();
     let velocity = friction_plot(names, result);
     let curve = friction_curve::plot(names, result);

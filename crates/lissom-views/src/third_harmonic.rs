@@ -14,7 +14,7 @@ pub fn pair_plot(names: UnitNames, result: &ResultFile) -> Option<LinePlot> {
 pub fn pair_plot_over_amplitude(names: UnitNames, result: &ResultFile) -> Option<LinePlot> {
     let amplitude = |pair: &SinePairEntry| {
         let run = result.runs.iter().find(|run| run.name == pair.run)?;
-        run.sinusoid.as_ref()?.amplitude.get(names).copied()
+        Some(run.sinusoid.as_ref()?.amplitude.value)
     };
     let axis = Axis::log(format!("amplitude of the motor ({})", names.angle()));
     plot_over(names, result, axis, "amplitude", amplitude)
@@ -28,17 +28,14 @@ fn plot_over(
     abscissa: impl Fn(&SinePairEntry) -> Option<f64>,
 ) -> Option<LinePlot> {
     let third = result.methods.third_harmonic.as_ref()?;
-    let mean = third.coulomb.in_command(names)?.as_ref()?;
+    let mean = &third.coulomb;
     let [low, high] = mean.ci95;
-    let coulomb = |pair: &SinePairEntry, of: fn(&EstimateEntry) -> f64| {
-        pair.coulomb.in_command(names).map_or(f64::NAN, of)
-    };
     let trace = Trace::points_with_bars(
         "each pair",
         Role::Corrected,
         third.pairs.iter().map(abscissa).collect::<Option<_>>()?,
-        third.pairs.iter().map(|p| coulomb(p, |e| e.value)).collect(),
-        third.pairs.iter().map(|p| coulomb(p, |e| e.std)).collect(),
+        third.pairs.iter().map(|p| p.coulomb.value).collect(),
+        third.pairs.iter().map(|p| p.coulomb.std).collect(),
     )
     .with_flags(third.pairs.iter().map(|p| !p.used).collect());
     let unit = names.command_unit();
@@ -68,13 +65,10 @@ pub fn pair_table(names: UnitNames, result: &ResultFile) -> Table {
             ("", Cells::Text),
         ],
     );
-    let shown = |estimate: Option<&EstimateEntry>| {
-        let digits = |value: f64| format!("{value:.5}");
-        estimate.map_or_else(Default::default, |e| [digits(e.value), digits(e.std)])
-    };
+    let shown = |e: &EstimateEntry| [e.value, e.std].map(|value| format!("{value:.5}"));
     if let Some(third) = &result.methods.third_harmonic {
         for p in &third.pairs {
-            let [coulomb, std] = shown(p.coulomb.in_command(names));
+            let [coulomb, std] = shown(&p.coulomb);
             table = table.row([
                 p.run.clone(),
                 p.triple_run.clone(),
@@ -85,8 +79,7 @@ pub fn pair_table(names: UnitNames, result: &ResultFile) -> Table {
                 (if p.used { "" } else { "left out" }).to_owned(),
             ]);
         }
-        let [coulomb, std] = shown(third.coulomb.in_command(names).and_then(Option::as_ref));
-        let spread = third.spread.get(names).map(|spread| format!("spread {spread:.5}"));
+        let [coulomb, std] = shown(&third.coulomb);
         table = table.row([
             "mean".to_owned(),
             String::new(),
@@ -94,7 +87,7 @@ pub fn pair_table(names: UnitNames, result: &ResultFile) -> Table {
             coulomb,
             std,
             String::new(),
-            spread.unwrap_or_default(),
+            format!("spread {:.5}", third.spread.value),
         ]);
     }
     table

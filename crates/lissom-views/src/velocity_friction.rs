@@ -1,6 +1,6 @@
 //! Friction from constant velocities: plot, and table of the stretches.
 
-use lissom_io::result::{DirectionName, EstimateEntry, LineShapeName, SteadyPointEntry};
+use lissom_io::result::{DirectionName, LineShapeName, SteadyPointEntry};
 use lissom_io::{ResultFile, UnitNames};
 use lissom_report::{Axis, Cells, LinePlot, Role, Table, Trace, TraceStyle, with_uncertainty};
 
@@ -10,7 +10,7 @@ use crate::parameter_rows::given;
 pub fn friction_plot(names: UnitNames, result: &ResultFile) -> Option<LinePlot> {
     let found = result.methods.constant_velocity.as_ref()?;
     let constant = result.torque_per_command.unwrap_or(1.0);
-    let back_emf = found.back_emf.get(names).copied().unwrap_or(0.0);
+    let back_emf = found.back_emf.value;
     let unit = names.command_unit();
     let mut plot = LinePlot::new(
         "Friction from constant velocities",
@@ -26,29 +26,21 @@ pub fn friction_plot(names: UnitNames, result: &ResultFile) -> Option<LinePlot> 
     for (name, direction, role) in directions {
         let sign = direction.sign();
         let points = || found.points.iter().filter(move |p| p.direction == direction);
-        let command = |p: &SteadyPointEntry, of: fn(&EstimateEntry) -> f64| {
-            p.command.get(names).map_or(f64::NAN, of)
-        };
-        let velocity = |p: &SteadyPointEntry| Some(sign * p.velocity.get(names)?.value);
-        let speeds: Vec<f64> = points().filter_map(velocity).collect();
+        let speeds: Vec<f64> = points().map(|p| sign * p.velocity.value).collect();
         let (slowest, fastest) =
             speeds.iter().fold((f64::INFINITY, 0.0_f64), |(l, h), v| (l.min(*v), h.max(*v)));
         plot = plot.trace(Trace::points_with_bars(
             name,
             role,
             speeds,
-            points().map(|p| sign * command(p, |e| e.value)).collect(),
-            points().map(|p| command(p, |e| e.std)).collect(),
+            points().map(|p| sign * p.command.value).collect(),
+            points().map(|p| p.command.std).collect(),
         ));
         let Some(line) = found.lines.iter().find(|line| line.direction == direction) else {
             continue;
         };
-        let (Some(coulomb), Some(viscous)) =
-            (given(line.coulomb.get(names)), line.viscous.get(names))
-        else {
-            continue;
-        };
-        let slope = viscous.value + back_emf;
+        let Some(coulomb) = given(&line.coulomb) else { continue };
+        let slope = line.viscous.value + back_emf;
         let at = |v: f64| (coulomb.value + slope * v) / constant;
         let rest = coulomb.scaled(1.0 / constant);
         let label = format!("{name} at rest {} {unit}", with_uncertainty(rest.value, rest.std));
@@ -57,7 +49,7 @@ pub fn friction_plot(names: UnitNames, result: &ResultFile) -> Option<LinePlot> 
         lines.push(through);
         lines.push(Trace::new(label, role, TraceStyle::Dashes, vec![0.0, slowest], to_rest));
         if let (LineShapeName::Concave | LineShapeName::Convex, Some(slow)) =
-            (line.shape, given(line.slowest.get(names)))
+            (line.shape, given(&line.slowest))
         {
             bent.push(slow.scaled(1.0 / constant));
         }
@@ -90,15 +82,15 @@ pub(crate) struct FrictionOfDirection {
 }
 
 /// Friction at constant velocities in torques, both directions; `None` without this method.
-pub(crate) fn in_torque(names: UnitNames, result: &ResultFile) -> Option<[FrictionOfDirection; 2]> {
+pub(crate) fn in_torque(result: &ResultFile) -> Option<[FrictionOfDirection; 2]> {
     let found = result.methods.constant_velocity.as_ref().filter(|c| !c.points.is_empty())?;
     let constant = result.torque_per_command.unwrap_or(1.0);
-    let back_emf = found.back_emf.get(names).copied().unwrap_or(0.0);
+    let back_emf = found.back_emf.value;
     let of_direction = |direction: DirectionName| {
         let sign = direction.sign();
         let point = |p: &SteadyPointEntry| {
-            let speed = sign * p.velocity.get(names)?.value;
-            let command = p.command.get(names)?;
+            let speed = sign * p.velocity.value;
+            let command = &p.command;
             let friction = sign * constant * command.value - back_emf * speed;
             Some((speed, (friction, constant.abs() * command.std)))
         };
@@ -107,7 +99,7 @@ pub(crate) fn in_torque(names: UnitNames, result: &ResultFile) -> Option<[Fricti
         let fastest = speed.iter().fold(0.0_f64, |most, v| most.max(*v));
         let line = found.lines.iter().find(|line| line.direction == direction);
         let line = line.and_then(|line| {
-            let (coulomb, viscous) = (given(line.coulomb.get(names))?, line.viscous.get(names)?);
+            let (coulomb, viscous) = (given(&line.coulomb)?, &line.viscous);
             let at = |v: f64| (v, viscous.value.mul_add(v, coulomb.value));
             Some([at(0.0), at(fastest)])
         });
@@ -136,9 +128,9 @@ pub fn stretch_table(names: UnitNames, result: &ResultFile) -> Table {
             p.run.clone(),
             format!("{:.3}", p.start_s),
             format!("{:.3}", p.end_s),
-            digits(p.velocity.get(names).map(|e| e.value)),
-            digits(p.command.get(names).map(|e| e.value)),
-            digits(p.command.get(names).map(|e| e.std)),
+            digits(Some(p.velocity.value)),
+            digits(Some(p.command.value)),
+            digits(Some(p.command.std)),
         ];
         table = table.row(cells.into_iter().skip(first));
     }

@@ -95,7 +95,7 @@ impl Found {
 
     /// The parameters as the tables list them: key, name, unit, estimate, and the codes of the warnings that affect each.
     pub fn parameters(&self) -> Vec<ListedParameter> {
-        ParameterList::of(&self.file()).map_or_else(Vec::new, |list| list.parameters)
+        ParameterList::of(&self.file()).parameters
     }
 
     /// The content of `result.json`.

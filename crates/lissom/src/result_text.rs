@@ -24,7 +24,7 @@ pub struct ResultText<'r>(pub &'r ResultFile);
 impl fmt::Display for ResultText<'_> {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let file = self.0;
-        let list = ParameterList::of(file).ok_or(fmt::Error)?;
+        let list = ParameterList::of(file);
         if let Some(method) = file.from {
             writeln!(f, "estimates by {}", method.words())?;
         }

@@ -5,7 +5,7 @@ use std::path::Path;
 
 use lissom::DescribedLogs;
 use lissom::identify::Effort;
-use lissom_io::limits::{CheckFile, LimitsFile, Outcome};
+use lissom_io::limits::{CheckFile, Limit, LimitsFile, Outcome};
 use lissom_io::write::{self, Batch};
 use lissom_io::{CampaignFile, ParameterList, ResultFile, read_campaign_like};
 
@@ -39,7 +39,7 @@ pub(crate) fn run(args: &CheckArgs) -> Result<ExitCode, Failure> {
     let effort = if args.quick { Effort::Quick } else { Effort::default() };
     let id = identified(&args.log, &file, Asked { effort, ..Asked::default() })?;
     let result = ResultFile::of(&file.campaign.channels, &id, None);
-    let parameters = ParameterList::of(&result).map_or_else(Vec::new, |list| list.parameters);
+    let parameters = ParameterList::of(&result).parameters;
     let unknown = limits.limits.iter().find(|l| !parameters.iter().any(|p| p.key == l.parameter));
     if let Some(limit) = unknown {
         let keys: Vec<&str> = parameters.iter().map(|p| p.key.as_str()).collect();
@@ -50,7 +50,20 @@ pub(crate) fn run(args: &CheckArgs) -> Result<ExitCode, Failure> {
                 limit.parameter,
                 keys.join(", ")
             ),
-            "the end of a key is its unit: without a torque constant friction is in the unit of the command",
+            "name one of these",
+        ));
+    }
+    let same = |l: &Limit| parameters.iter().find(|p| p.key == l.parameter && p.unit != l.unit);
+    if let Some((limit, given)) = limits.limits.iter().find_map(|l| Some((l, same(l)?))) {
+        return Err(Failure::Asked(
+            format!(
+                "{}: the limits of {} are in {}, the result is in {}",
+                args.limits.display(),
+                limit.parameter,
+                limit.unit,
+                given.unit
+            ),
+            "give the limits in the unit of the result: without a torque constant friction is in the unit of the command",
         ));
     }
     let check = CheckFile::of(name, path, &parameters, &limits.limits);

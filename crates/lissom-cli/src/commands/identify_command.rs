@@ -85,7 +85,7 @@ pub(crate) fn run(args: &IdentifyArgs) -> Result<ExitCode, Failure> {
         parameter_table::parameters(names, &result, reference);
         parameter_table::speeds_of_law(names, &id);
         parameter_table::line_of_least_squares(names, &result);
-        parameter_table::constant_velocity(names, &result);
+        parameter_table::constant_velocity(&result);
         if let Some(found) = &result.equivalent {
             equivalent_table::brief(names, found);
         }

@@ -77,10 +77,10 @@ pub(crate) fn speeds_of_law(names: UnitNames, id: &Identified) {
 }
 
 /// Prints friction by the method of constant velocities.
-pub(crate) fn constant_velocity(names: UnitNames, result: &ResultFile) {
+pub(crate) fn constant_velocity(result: &ResultFile) {
     let Some(found) = &result.methods.constant_velocity else { return };
     let mut rows = vec![["constant velocity", "value", "unit", "95 % interval"].map(str::to_owned)];
-    rows.extend(classical_rows(names, found).into_iter().map(|row| match row.estimate {
+    rows.extend(classical_rows(result, found).into_iter().map(|row| match row.estimate {
         Some(e) => {
             let within = interval(e.ci95(), e.value, e.std);
             [row.name, with_uncertainty(e.value, e.std), row.unit, within]

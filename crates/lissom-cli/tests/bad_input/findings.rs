@@ -18,7 +18,7 @@ fn changed(change: impl Fn(usize, &mut Row)) -> Bench {
 #[test]
 fn the_good_log_is_used_without_a_warning() {
     let result = Bench::new().result();
-    let coulomb = result["friction"]["coulomb_nm"]["value"].as_f64().unwrap();
+    let coulomb = result["friction"]["coulomb"]["value"].as_f64().unwrap();
     assert!((coulomb / 0.05 - 1.0).abs() < COULOMB_ERROR, "{coulomb}");
     let findings = result["findings"].as_array().unwrap();
     let warnings: Vec<_> = findings.iter().filter(|f| f["severity"] == "warning").collect();
@@ -33,7 +33,7 @@ fn runs_of_different_sampling_are_used_together() {
     let runs = result["runs"].as_array().unwrap();
     let times: Vec<_> = runs.iter().map(|run| run["sample_time_s"].as_f64().unwrap()).collect();
     assert_eq!(times, [0.005, 0.008]);
-    let coulomb = result["friction"]["coulomb_nm"]["value"].as_f64().unwrap();
+    let coulomb = result["friction"]["coulomb"]["value"].as_f64().unwrap();
     assert!((coulomb / 0.05 - 1.0).abs() < COULOMB_ERROR, "{coulomb}");
     let output = bench.identify(&["campaign.toml"]);
     assert_eq!(

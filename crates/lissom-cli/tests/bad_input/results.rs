@@ -11,7 +11,7 @@ fn result(axis: &str, constant: &str, friction: &str) -> String {
     )
 }
 
-const AMPERE: &str = r#""coulomb_a": {"value": 1.0, "std": 0.1, "ci95": [0.8, 1.2]}"#;
+const AMPERE: &str = r#""coulomb": {"value": 1.0, "std": 0.1, "ci95": [0.8, 1.2], "unit": "A"}"#;
 
 fn refuses(bench: &Bench, arguments: &[&str], message: &str) {
     bench.lissom_refuses("compare", arguments, 1, message);
@@ -23,7 +23,7 @@ fn a_file_is_no_result() {
         .file("a.json", result("rotary", "null", AMPERE))
         .file("model.json", "{\"lissom\": \"0.1.0\"}")
         .file("cut.json", "{\"lissom\":")
-        .file("old.json", result("rotary", "null", "\"coulomb_a\": 1"));
+        .file("old.json", result("rotary", "null", "\"coulomb\": 1"));
     let hint = "hint: give files that `lissom identify CAMPAIGN --json FILE` wrote";
     refuses(
         &bench,
@@ -52,7 +52,7 @@ fn a_file_is_no_result() {
     refuses(
         &bench,
         &["a.json", "old.json"],
-        "error: old.json: `friction` cannot be read: `coulomb_a`: invalid type: integer `1`, expected \
+        "error: old.json: `friction.coulomb` cannot be read: invalid type: integer `1`, expected \
          struct EstimateEntry\n\
          hint: write it again with `lissom identify CAMPAIGN --json FILE`",
     );

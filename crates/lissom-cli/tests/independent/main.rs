@@ -71,12 +71,12 @@ fn check(file: &str, forward_nm: f64, backward_nm: f64) {
     let modes = beam["modes"].as_array().unwrap();
     assert_eq!(modes.len(), 1, "{modes:?}");
     let estimates = [
-        ("Coulomb", &friction["coulomb_nm"], 0.5 * (forward_nm + backward_nm), COULOMB_ERROR),
-        ("forward", &friction["forward_nm"], forward_nm, DIRECTION_ERROR),
-        ("backward", &friction["backward_nm"], backward_nm, DIRECTION_ERROR),
-        ("viscous", &friction["viscous_nm_s_per_rad"], VISCOUS_NM_S_PER_RAD, VISCOUS_ERROR),
-        ("inertia", &result["drive"]["inertia_kg_m2"], INERTIA_KG_M2, INERTIA_ERROR),
-        ("coupling", &beam["coupling_nm_per_rad"], COUPLING_NM_PER_RAD, COUPLING_ERROR),
+        ("Coulomb", &friction["coulomb"], 0.5 * (forward_nm + backward_nm), COULOMB_ERROR),
+        ("forward", &friction["forward"], forward_nm, DIRECTION_ERROR),
+        ("backward", &friction["backward"], backward_nm, DIRECTION_ERROR),
+        ("viscous", &friction["viscous"], VISCOUS_NM_S_PER_RAD, VISCOUS_ERROR),
+        ("inertia", &result["drive"]["inertia"], INERTIA_KG_M2, INERTIA_ERROR),
+        ("coupling", &beam["coupling"], COUPLING_NM_PER_RAD, COUPLING_ERROR),
         ("frequency", &modes[0]["natural_frequency_rad_s"], FREQUENCY_RAD_S, FREQUENCY_ERROR),
     ];
     for (name, estimate, truth, largest) in estimates {

@@ -5,10 +5,10 @@ use super::common;
 /// Published (IDIM-LS): mass \[kg\], viscous \[N·s/m\], Coulomb \[N\], offset \[N\].
 const PUBLISHED: [(&str, f64, f64); 4] = [
     // Name, value, relative tolerance.
-    ("mass_kg", 95.1089, 0.01),
-    ("viscous_n_s_per_m", 203.5034, 0.01),
-    ("coulomb_n", 20.3935, 0.01),
-    ("offset_n", -3.1648, 0.05),
+    ("inertia", 95.1089, 0.01),
+    ("viscous", 203.5034, 0.01),
+    ("coulomb", 20.3935, 0.01),
+    ("offset", -3.1648, 0.05),
 ];
 
 /// The published equation, which the regression fits: Coulomb friction and one viscous constant.
@@ -32,7 +32,7 @@ fn viscous_friction_by_direction_is_found() {
     // what the change near rest does not move.
     let law = &result["friction"]["law"];
     let value = |key: &str| law[key]["value"].as_f64().unwrap();
-    let apart = value("viscous_backward_n_s_per_m") - value("viscous_forward_n_s_per_m");
+    let apart = value("viscous_backward") - value("viscous_forward");
     assert!((apart / (239.6 - 166.7) - 1.0).abs() < 0.05, "{apart}");
     // The law that is printed has it, and its finding says so.
     assert!(common::has_finding(&result, "friction-law"));
@@ -53,23 +53,22 @@ fn friction_is_no_line_over_speed() {
     let term =
         |name: &str| law["chosen"]["terms"].as_array().unwrap().iter().find(|t| t["term"] == name);
     let value = |v: &serde_json::Value| v["value"].as_f64().unwrap();
-    let apart = value(&term("viscous-by-direction").unwrap()["amplitude_n_s_per_m"][0]);
+    let apart = value(&term("viscous-by-direction").unwrap()["amplitude"][0]);
     let near = term("near-rest").unwrap();
-    let (rest, speed) = (value(&near["amplitude_n"][0]), near["speed_m_per_s"].as_f64().unwrap());
+    let (rest, speed) = (value(&near["amplitude"][0]), near["speed"]["value"].as_f64().unwrap());
     // Friction falls towards rest, opposite to Stribeck's, and stays positive there.
-    let coulomb = value(&law["chosen"]["coulomb_n"]);
+    let coulomb = value(&law["chosen"]["coulomb"]);
     assert!(rest < -5.0 && coulomb + rest > 5.0, "{coulomb} {rest}");
-    let (viscous, offset) =
-        (value(&law["chosen"]["viscous_n_s_per_m"]), value(&law["chosen"]["offset_n"]));
+    let (viscous, offset) = (value(&law["chosen"]["viscous"]), value(&law["chosen"]["offset"]));
     for p in result["friction"]["curve"].as_array().unwrap() {
         let sign = if p["direction"] == "forward" { 1.0 } else { -1.0 };
-        let v = p["speed_m_per_s"].as_f64().unwrap();
+        let v = p["speed"]["value"].as_f64().unwrap();
         if v < LAW_FROM {
             continue;
         }
         let by_law =
             coulomb + sign * offset + (viscous + sign * apart) * v + rest * (-v / speed).exp();
-        let by_curve = value(&p["friction_n"]);
+        let by_curve = value(&p["friction"]);
         assert!((by_law / by_curve - 1.0).abs() < LAW, "{v}: {by_law} {by_curve}");
     }
 }
@@ -98,12 +97,12 @@ const PAGE: &str = include_str!("../../../../docs/src/evidence/measured.md");
 fn published(found: &serde_json::Value) -> serde_json::Value {
     let mut result = found.clone();
     let arm = &mut result["arm"];
-    arm["mass_kg"] = PUBLISHED[0].1.into();
-    for key in ["viscous_forward_n_s_per_m", "viscous_backward_n_s_per_m"] {
-        arm[key] = PUBLISHED[1].1.into();
+    arm["inertia"]["value"] = PUBLISHED[0].1.into();
+    for key in ["viscous_forward", "viscous_backward"] {
+        arm[key]["value"] = PUBLISHED[1].1.into();
     }
-    arm["coulomb_n"] = PUBLISHED[2].1.into();
-    arm["offset_n"] = PUBLISHED[3].1.into();
+    arm["coulomb"]["value"] = PUBLISHED[2].1.into();
+    arm["offset"]["value"] = PUBLISHED[3].1.into();
     arm["command_lag_s"] = 0.0.into();
     for key in ["near_rest", "root", "with_load"] {
         arm[key] = serde_json::Value::Null;
@@ -152,7 +151,7 @@ fn constant_velocities_give_friction_near_the_published_figure() {
     // The log moves at 0.042, 0.083 and 0.125 m/s both ways.
     let points = classical["points"].as_array().unwrap();
     for (direction, sign) in [("forward", 1.0), ("backward", -1.0)] {
-        let speed = |p: &serde_json::Value| p["velocity_m_per_s"]["value"].as_f64().unwrap() * sign;
+        let speed = |p: &serde_json::Value| p["velocity"]["value"].as_f64().unwrap() * sign;
         let mut speeds: Vec<f64> =
             points.iter().filter(|p| p["direction"] == direction).map(speed).collect();
         assert!(speeds.len() >= 9, "{direction}: {}", speeds.len());
@@ -161,21 +160,21 @@ fn constant_velocities_give_friction_near_the_published_figure() {
         assert_eq!(speeds.len(), 3, "{direction}: {speeds:?}");
     }
     let value = |v: &serde_json::Value| v["value"].as_f64().unwrap();
-    let found = value(&classical["coulomb_n"]);
+    let found = value(&classical["coulomb"]);
     let published = PUBLISHED[2].1;
     assert!((found / published - 1.0).abs() < CLASSICAL, "{found}");
-    let interval = &classical["coulomb_n"]["ci95"];
+    let interval = &classical["coulomb"]["ci95"];
     let ends = [0, 1].map(|k| interval[k].as_f64().unwrap());
     assert!(ends[0] < published && published < ends[1], "{ends:?}");
     // It says itself why it is no better: friction changes along the screw.
     assert!(common::has_finding(&result, "speeds-scatter"));
     // Viscous friction by direction as by the regression, within that.
-    let viscous = |line: usize| value(&classical["lines"][line]["viscous_n_s_per_m"]);
+    let viscous = |line: usize| value(&classical["lines"][line]["viscous"]);
     assert!((viscous(0) / 166.7 - 1.0).abs() < 0.1, "{}", viscous(0));
     assert!((viscous(1) / 239.6 - 1.0).abs() < 0.1, "{}", viscous(1));
     // The regression stands, and its estimates are the ones taken.
     assert_eq!(
-        result["friction"]["law"]["coulomb_n"],
-        result["methods"]["friction_law"]["chosen"]["coulomb_n"]
+        result["friction"]["law"]["coulomb"],
+        result["methods"]["friction_law"]["chosen"]["coulomb"]
     );
 }

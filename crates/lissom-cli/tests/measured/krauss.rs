@@ -38,7 +38,7 @@ fn modes_and_notches_at_once() {
     assert!(level(hertz[0]) < 0.2 * level(1.3 * hertz[0]), "no notch at {} Hz", hertz[0]);
     assert!(level(hertz[1]) < 0.8 * level(0.9 * hertz[1]), "no notch at {} Hz", hertz[1]);
     // The replay has an inertia of 0.357 and a lag of 2.8 ms.
-    let inertia = result["drive"]["inertia_command_s2_per_rad"]["value"].as_f64().unwrap();
+    let inertia = result["drive"]["inertia"]["value"].as_f64().unwrap();
     assert!((inertia / 0.357 - 1.0).abs() < 0.05, "{inertia}");
     let lag_s = &result["models"]["motor_delay_s"];
     let (value, std) = (lag_s["value"].as_f64().unwrap(), lag_s["std"].as_f64().unwrap());
@@ -86,8 +86,8 @@ fn figures_are_per_unit_of_command_and_friction_is_seen() {
     let result = sweeps(&data);
     assert!(common::has_finding(&result, "per-unit-of-command"));
     assert!(common::has_finding(&result, "friction-visible"));
-    assert!(result["friction"].get("coulomb_command").is_some());
-    assert!(result["drive"].get("inertia_command_s2_per_rad").is_some());
+    assert!(result["friction"].get("coulomb").is_some());
+    assert!(result["drive"].get("inertia").is_some());
     // An accelerometer gives no coupling torque: nothing to predict another log with.
     assert!(result["arm"].is_null());
 }

@@ -14,11 +14,11 @@ fn says_what_these_logs_cannot_tell() {
     assert!(common::has_finding(&result, "friction-visible"));
     // Maker's configuration: viscous 4.0 N·m·s/rad, link stiffness 39.96 (theory), 27 (test).
     let value = |table: &str, key: &str| result[table][key]["value"].as_f64().unwrap();
-    assert!((2.0..5.0).contains(&value("friction", "viscous_nm_s_per_rad")));
-    assert!((25.0..50.0).contains(&value("beam", "coupling_nm_per_rad")));
+    assert!((2.0..5.0).contains(&value("friction", "viscous")));
+    assert!((25.0..50.0).contains(&value("beam", "coupling")));
     // Provenance, a crude fit: 0.2 to 0.5 N·m "Coulomb-like"; the interval must not be narrower
     // than what two runs that differ allow.
-    let coulomb = &result["friction"]["coulomb_nm"];
+    let coulomb = &result["friction"]["coulomb"];
     assert!(coulomb["value"].as_f64().unwrap() > 0.2);
     assert!(coulomb["std"].as_f64().unwrap() > 0.03);
 }
@@ -29,5 +29,5 @@ fn a_gauge_of_the_other_sign_is_noticed() {
     let text = include_str!("quanser.toml").replace(", scale = -1", "");
     let result = common::identify(&text, &data, "", 3);
     assert!(common::has_finding(&result, "coupling-sign"));
-    assert!(result["beam"]["coupling_nm_per_rad"].is_null());
+    assert!(result["beam"]["coupling"].is_null());
 }

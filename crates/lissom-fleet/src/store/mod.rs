@@ -10,5 +10,5 @@ mod table;
 pub(crate) use folder::FleetFolder;
 pub use manifest::{MANIFEST, Manifest, PartEntry};
 pub use part_columns::Values;
-pub(crate) use part_columns::{FAILURE, LOG, MACHINE, STD, TIME};
+pub(crate) use part_columns::{FAILURE, LOG, MACHINE, TIME, std_of};
 pub use table::{FleetTable, open};

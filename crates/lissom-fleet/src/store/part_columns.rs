@@ -12,8 +12,11 @@ pub(crate) const MACHINE: &str = "machine";
 pub(crate) const TIME: &str = "time";
 /// Column of the kinds of failures.
 pub(crate) const FAILURE: &str = "failure";
-/// Suffix of a standard error's column.
-pub(crate) const STD: &str = ".std";
+/// Name of the column of an estimate's standard errors: of `friction.coulomb [N·m]` it is `friction.coulomb.std [N·m]`.
+pub(crate) fn std_of(name: &str) -> String {
+    let (key, unit) = name.split_once(" [").unwrap_or((name, "1]"));
+    format!("{key}.std [{unit}")
+}
 
 /// Values of a column; a missing one is none.
 #[derive(Debug, Clone, PartialEq)]
@@ -126,7 +129,7 @@ fn estimates(rows: &[FleetRow]) -> Vec<(String, Values)> {
     }
     let named = keys.into_iter().zip(numbers);
     let pair = |(key, [value, std]): (&str, [Vec<Option<f64>>; 2])| {
-        [(key.to_owned(), Values::Number(value)), (format!("{key}{STD}"), Values::Number(std))]
+        [(key.to_owned(), Values::Number(value)), (std_of(key), Values::Number(std))]
     };
     named.flat_map(pair).collect()
 }

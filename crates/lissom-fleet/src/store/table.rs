@@ -8,7 +8,7 @@ use lissom_io::write::write_whole;
 
 use super::manifest::Manifest;
 use super::part::{ParquetWriter, part_column, part_names};
-use super::part_columns::{STD, Values, columns};
+use super::part_columns::{Values, columns, std_of};
 use crate::fleet_error::FleetError;
 
 /// The rows of a fleet, read column by column. It shows the parts that the manifest listed when it was opened.
@@ -77,7 +77,7 @@ impl FleetTable {
     pub fn parameters(&self) -> Result<Vec<String>, FleetError> {
         let names = self.names()?;
         let all: HashSet<&str> = names.iter().map(String::as_str).collect();
-        let is_estimate = |name: &&String| all.contains(format!("{name}{STD}").as_str());
+        let is_estimate = |name: &&String| all.contains(std_of(name).as_str());
         Ok(names.iter().filter(is_estimate).cloned().collect())
     }
 

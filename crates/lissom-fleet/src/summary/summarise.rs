@@ -10,7 +10,7 @@ use super::log_value::LogValue;
 use super::machines::machines;
 use super::outliers::outliers;
 use crate::fleet_error::FleetError;
-use crate::store::{FAILURE, FleetTable, LOG, MACHINE, STD, TIME, Values};
+use crate::store::{FAILURE, FleetTable, LOG, MACHINE, TIME, Values, std_of};
 use crate::version::VERSION;
 
 /// Options of a summary.
@@ -45,7 +45,7 @@ pub fn summarise(table: &FleetTable, options: SummaryOptions) -> Result<FleetSum
     names.dedup();
     let mut parameters = Vec::new();
     for key in table.parameters()? {
-        let (values, stds) = (numbers(table, &key)?, numbers(table, &format!("{key}{STD}"))?);
+        let (values, stds) = (numbers(table, &key)?, numbers(table, &std_of(&key))?);
         let all = values.iter().zip(&stds).enumerate();
         let given: Vec<LogValue<'_>> = all
             .filter_map(|(row, (value, std))| {

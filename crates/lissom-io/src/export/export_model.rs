@@ -65,9 +65,9 @@ pub fn export_model_of_text(file: String, text: &str) -> Result<ExportModel, Err
         key: wrong.key,
         expected: wrong.expected,
     })?;
-    let speeds = result.friction.curve.iter().filter_map(|p| p.speed.get(listed.names).copied());
+    let speeds = result.friction.curve.iter().map(|p| p.speed.value);
     Ok(ExportModel {
-        friction_line: friction_line(&result.friction, listed.names, &found.arm),
+        friction_line: friction_line(&result.friction, &found.arm),
         file,
         names: listed.names,
         speed_most_rad_s: speeds.fold(None, |most, s| Some(most.map_or(s, |m: f64| m.max(s)))),
@@ -81,10 +81,10 @@ pub fn export_model_of_text(file: String, text: &str) -> Result<ExportModel, Err
 }
 
 /// The line of a result's friction beside its law. The arm's viscous friction is that of the law and the damping by back-EMF.
-fn friction_line(friction: &FrictionEntry, names: UnitNames, arm: &ModalArm) -> Option<[f64; 2]> {
-    let law = friction.law.as_ref()?.viscous.get(names)?.as_ref()?.value;
-    let coulomb = friction.coulomb.coulomb.get(names)?.as_ref()?.value;
-    let viscous = friction.viscous.get(names)?.as_ref()?.value;
+fn friction_line(friction: &FrictionEntry, arm: &ModalArm) -> Option<[f64; 2]> {
+    let law = friction.law.as_ref()?.viscous.as_ref()?.value;
+    let coulomb = friction.coulomb.coulomb.as_ref()?.value;
+    let viscous = friction.viscous.as_ref()?.value;
     let [forward, backward] = arm.viscous_nm_s_per_rad;
     Some([coulomb, viscous + 0.5 * (forward + backward) - law])
 }

@@ -40,6 +40,8 @@ pub enum Outcome {
 pub struct CheckedParameterEntry {
     /// Its key in `result.json`.
     pub parameter: String,
+    /// Its unit.
+    pub unit: String,
     /// The estimate; null if it is refused or the result has no such key.
     pub value: Option<f64>,
     /// Its standard error.
@@ -86,6 +88,7 @@ fn checked(parameters: &[ListedParameter], limit: &Limit) -> CheckedParameterEnt
     });
     CheckedParameterEntry {
         parameter: limit.parameter.clone(),
+        unit: limit.unit.clone(),
         value: estimate.map(|e| e.value),
         std: estimate.map(|e| e.std),
         min: limit.min,

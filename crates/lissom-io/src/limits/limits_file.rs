@@ -20,7 +20,9 @@ pub struct LimitsFile {
 pub struct Limit {
     /// Its key in `result.json`.
     pub parameter: String,
-    /// Smallest value, in the unit of the key.
+    /// Its unit, as `result.json` has it; `*` and `^2` for `·` and `²` are the same.
+    pub unit: String,
+    /// Smallest value.
     pub min: Option<f64>,
     /// Largest value.
     pub max: Option<f64>,
@@ -51,13 +53,14 @@ impl LimitsFile {
 
 fn limit(value: &Value<'_>) -> Result<Limit, ConfigError> {
     let table = value.table()?;
-    table.only(&["parameter", "min", "max"])?;
+    table.only(&["parameter", "unit", "min", "max"])?;
     let parameter = table.need("parameter")?.text()?.to_owned();
+    let unit = table.need("unit")?.text()?.replace('*', "·").replace("^2", "²");
     let number = |key: &str| table.get(key).map(|v| v.number()).transpose();
     let (min, max) = (number("min")?, number("max")?);
     match (min, max) {
         (None, None) => Err(ConfigError::NoneOf { place: table.place(), keys: vec!["min", "max"] }),
         (Some(min), Some(max)) if min >= max => Err(table.need("min")?.range(Rule::Below(max))),
-        _ => Ok(Limit { parameter, min, max }),
+        _ => Ok(Limit { parameter, unit, min, max }),
     }
 }

@@ -3,8 +3,9 @@
 //! ```toml
 //! path = "{machine}/{time}.csv"      # what the end of a log's path says; optional
 //! [[limits]]
-//! parameter = "friction.coulomb_nm"  # a key of result.json
-//! min = 0.20                         # in the unit of the key
+//! parameter = "friction.coulomb"     # a key of result.json
+//! unit = "N*m"                       # its unit there
+//! min = 0.20
 //! max = 0.30
 //! ```
 //!

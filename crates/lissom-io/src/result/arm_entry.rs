@@ -6,13 +6,10 @@ use lissom_core::record::{Channels, Tip};
 use lissom_core::replay::{ModalArm, Oscillator, Parameter};
 use serde::{Deserialize, Serialize};
 
-use super::arm_numbers::{Number, Numbers, WrongKey};
+use super::arm_numbers::{Numbers, WrongKey};
 use super::channel_names::{ArmSourceName, TipQuantityName};
+use super::estimate_entry::NumberEntry;
 use super::friction_term_entries::{ArmTermsEntry, ArmTorqueRippleEntry};
-use super::unit_keys::{
-    CosineKey, CoulombKey, CouplingByTipKey, InertiaKey, OffsetKey, SineKey, StiffnessKey,
-    ViscousBackwardKey, ViscousForwardKey, WithUnit,
-};
 use super::unit_names::UnitNames;
 
 /// The arm of a result. Torques are in N*m or N if the torque constant is known, otherwise in the unit of the command.
@@ -22,20 +19,15 @@ pub struct ArmEntry {
     /// The method that estimated it.
     pub from: ArmSourceName,
     /// Inertia or mass.
-    #[serde(flatten)]
-    pub inertia: Number<InertiaKey>,
+    pub inertia: NumberEntry,
     /// Viscous friction forward, including the damping by back-EMF.
-    #[serde(flatten)]
-    pub viscous_forward: Number<ViscousForwardKey>,
+    pub viscous_forward: NumberEntry,
     /// Viscous friction backward, including the damping by back-EMF.
-    #[serde(flatten)]
-    pub viscous_backward: Number<ViscousBackwardKey>,
+    pub viscous_backward: NumberEntry,
     /// Coulomb friction, mean of both directions.
-    #[serde(flatten)]
-    pub coulomb: Number<CoulombKey>,
+    pub coulomb: NumberEntry,
     /// (forward - backward)/2.
-    #[serde(flatten)]
-    pub offset: Number<OffsetKey>,
+    pub offset: NumberEntry,
     /// Further terms of friction.
     #[serde(flatten)]
     pub terms: ArmTermsEntry,
@@ -54,8 +46,8 @@ pub struct ArmEntry {
     pub modes: Vec<OscillatorEntry>,
     /// Torque on the motor per deflection of each tip, if the logs show it but no mode. The arm then has no modes and
     /// predicts only the torque. Absent otherwise.
-    #[serde(flatten)]
-    pub coupling_by_tip: WithUnit<CouplingByTipKey, Vec<f64>>,
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub coupling_by_tip: Option<NumberEntry<Vec<f64>>>,
     /// The tips.
     pub tips: Vec<ArmTipEntry>,
     /// Damping of the point of each tip against the fixed frame; empty unless there are as many tips as modes.
@@ -72,11 +64,9 @@ pub struct ArmEntry {
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct ArmGravityEntry {
     /// Coefficient g_s.
-    #[serde(flatten)]
-    pub sine: Number<SineKey>,
+    pub sine: NumberEntry,
     /// Coefficient g_c.
-    #[serde(flatten)]
-    pub cosine: Number<CosineKey>,
+    pub cosine: NumberEntry,
 }
 
 /// A mode as an oscillator on the motor.
@@ -86,8 +76,7 @@ pub struct OscillatorEntry {
     /// Its natural frequency.
     pub natural_frequency_rad_s: f64,
     /// Torque on the motor per deflection of the mode.
-    #[serde(flatten)]
-    pub stiffness: Number<StiffnessKey>,
+    pub stiffness: NumberEntry,
     /// Damping within the beam, 2*zeta*omega.
     pub damping_within_per_s: f64,
     /// Damping against the fixed frame, 2*zeta*omega.
@@ -120,15 +109,15 @@ impl ArmEntry {
         };
         Self {
             from: ArmSourceName::of(found.source),
-            inertia: WithUnit::new(names, a.inertia_kg_m2),
-            viscous_forward: WithUnit::new(names, a.viscous_nm_s_per_rad[0]),
-            viscous_backward: WithUnit::new(names, a.viscous_nm_s_per_rad[1]),
-            coulomb: WithUnit::new(names, a.coulomb_nm),
-            offset: WithUnit::new(names, a.offset_nm),
+            inertia: NumberEntry::of(a.inertia_kg_m2, names.inertia_unit()),
+            viscous_forward: NumberEntry::of(a.viscous_nm_s_per_rad[0], names.viscous_unit()),
+            viscous_backward: NumberEntry::of(a.viscous_nm_s_per_rad[1], names.viscous_unit()),
+            coulomb: NumberEntry::of(a.coulomb_nm, names.torque_unit()),
+            offset: NumberEntry::of(a.offset_nm, names.torque_unit()),
             terms: ArmTermsEntry::of(names, &a.dry_terms),
             gravity: a.gravity.map(|g| ArmGravityEntry {
-                sine: WithUnit::new(names, g.sine_nm),
-                cosine: WithUnit::new(names, g.cosine_nm),
+                sine: NumberEntry::of(g.sine_nm, names.torque_unit()),
+                cosine: NumberEntry::of(g.cosine_nm, names.torque_unit()),
             }),
             torque_ripples: a
                 .torque_ripples
@@ -138,10 +127,9 @@ impl ArmEntry {
             command_lag_s: a.command_lag_s,
             command_is_filtered: found.lag_shape == LagShape::Filter,
             modes: a.modes.iter().map(|m| OscillatorEntry::of(names, m)).collect(),
-            coupling_by_tip: WithUnit::where_some(
-                names,
-                Some(found.coupling_alone_nm_per_rad.clone()).filter(|c| !c.is_empty()),
-            ),
+            coupling_by_tip: Some(found.coupling_alone_nm_per_rad.clone())
+                .filter(|c| !c.is_empty())
+                .map(|c| NumberEntry::of(c, names.coupling_unit())),
             tips: channels.tips.iter().zip(&a.shapes).enumerate().map(tip).collect(),
             damping_at_points_per_s: a.at_points_per_s.clone(),
             torque_error: found.torque_used.map(|t| t.relative_error),
@@ -151,7 +139,7 @@ impl ArmEntry {
 
     /// The arm of this entry; its keys have the units of `names`.
     pub(crate) fn found(&self, names: UnitNames) -> Result<FoundArm, WrongKey> {
-        let number = Numbers { names, at: "arm" };
+        let number = Numbers { at: "arm" };
         let modes = self.modes.iter().map(|m| m.oscillator(names));
         let modes = modes.collect::<Result<Vec<_>, _>>()?;
         let points = self.damping_at_points_per_s.len();
@@ -161,31 +149,41 @@ impl ArmEntry {
         if self.tips.iter().any(|tip| tip.shape.len() != modes.len()) {
             return Err(number.wrong("tips[].shape", "one number for each mode"));
         }
-        let coupling = self.coupling_by_tip.get(names).cloned().unwrap_or_default();
+        let by_tip = "coupling_by_tip";
+        let coupling = match &self.coupling_by_tip {
+            Some(coupling) if coupling.unit != names.coupling_unit() => {
+                return Err(number.wrong(by_tip, format!("in {}", names.coupling_unit())));
+            }
+            Some(coupling) => coupling.value.clone(),
+            None => Vec::new(),
+        };
         if !coupling.is_empty() && (coupling.len() != self.tips.len() || !modes.is_empty()) {
             let expected = "one number for each tip, in an arm without modes";
-            return Err(number.wrong(&number.key::<CouplingByTipKey>(), expected));
+            return Err(number.wrong(by_tip, expected));
         }
         for value in &coupling {
-            number.sane(&number.key::<CouplingByTipKey>(), *value)?;
+            number.sane(by_tip, *value)?;
         }
-        let lag = |tip: &ArmTipEntry| Numbers { names, at: "arm.tips[]" }.sane("lag_s", tip.lag_s);
+        let lag = |tip: &ArmTipEntry| Numbers { at: "arm.tips[]" }.sane("lag_s", tip.lag_s);
         let lags = self.tips.iter().map(lag).collect::<Result<Vec<_>, _>>()?;
         let window = self.torque_window_s.filter(|window| *window > 0.0);
+        let torque = names.torque_unit();
+        let viscous = |key: &str, value| number.of(key, value, names.viscous_unit());
         let gravity = self.gravity.as_ref().map(|g| {
-            let number = Numbers { names, at: "arm.gravity" };
-            let (sine_nm, cosine_nm) = (number.of(&g.sine)?, number.of(&g.cosine)?);
+            let number = Numbers { at: "arm.gravity" };
+            let sine_nm = number.of("sine", &g.sine, torque)?;
+            let cosine_nm = number.of("cosine", &g.cosine, torque)?;
             Ok(GravityLoad { sine_nm, cosine_nm })
         });
         let ripples = self.torque_ripples.iter().map(|r| r.torque_ripple(names));
         let arm = ModalArm {
-            inertia_kg_m2: number.positive(&self.inertia)?,
+            inertia_kg_m2: number.positive("inertia", &self.inertia, names.inertia_unit())?,
             viscous_nm_s_per_rad: [
-                number.of(&self.viscous_forward)?,
-                number.of(&self.viscous_backward)?,
+                viscous("viscous_forward", &self.viscous_forward)?,
+                viscous("viscous_backward", &self.viscous_backward)?,
             ],
-            coulomb_nm: number.of(&self.coulomb)?,
-            offset_nm: number.of(&self.offset)?,
+            coulomb_nm: number.of("coulomb", &self.coulomb, torque)?,
+            offset_nm: number.of("offset", &self.offset, torque)?,
             dry_terms: self.terms.dry_terms(names)?,
             shapes: self.tips.iter().map(|tip| tip.shape.clone()).collect(),
             at_points_per_s: self.damping_at_points_per_s.clone(),
@@ -213,14 +211,14 @@ impl OscillatorEntry {
     fn of(names: UnitNames, m: &Oscillator) -> Self {
         Self {
             natural_frequency_rad_s: m.omega_rad_s,
-            stiffness: WithUnit::new(names, m.stiffness_nm_per_rad),
+            stiffness: NumberEntry::of(m.stiffness_nm_per_rad, names.coupling_unit()),
             damping_within_per_s: m.within_per_s,
             damping_grounded_per_s: m.grounded_per_s,
         }
     }
 
     fn oscillator(&self, names: UnitNames) -> Result<Oscillator, WrongKey> {
-        let number = Numbers { names, at: "arm.modes[]" };
+        let number = Numbers { at: "arm.modes[]" };
         let frequency = "natural_frequency_rad_s";
         let omega_rad_s = number.sane(frequency, self.natural_frequency_rad_s)?;
         if omega_rad_s <= 0.0 {
@@ -228,7 +226,11 @@ impl OscillatorEntry {
         }
         Ok(Oscillator {
             omega_rad_s,
-            stiffness_nm_per_rad: number.positive(&self.stiffness)?,
+            stiffness_nm_per_rad: number.positive(
+                "stiffness",
+                &self.stiffness,
+                names.coupling_unit(),
+            )?,
             within_per_s: number.sane("damping_within_per_s", self.damping_within_per_s)?,
             grounded_per_s: number.sane("damping_grounded_per_s", self.damping_grounded_per_s)?,
         })

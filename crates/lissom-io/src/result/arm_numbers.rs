@@ -1,13 +1,9 @@
 //! Checks of the numbers of an arm that is read: known units and plausible sizes.
 
-use super::unit_keys::{Quantity, WithUnit};
-use super::unit_names::UnitNames;
+use super::estimate_entry::NumberEntry;
 
 /// Largest plausible number in SI.
 const LARGEST: f64 = 1e12;
-
-/// A number under a key with its unit.
-pub(super) type Number<Q> = WithUnit<Q, f64>;
 
 /// A key of an arm that is missing or has a wrong value.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -15,22 +11,17 @@ pub(crate) struct WrongKey {
     /// The key, dotted.
     pub(crate) key: String,
     /// What it should be.
-    pub(crate) expected: &'static str,
+    pub(crate) expected: String,
 }
 
 /// Reads numbers from a table of an arm.
 pub(super) struct Numbers {
-    pub(super) names: UnitNames,
     pub(super) at: &'static str,
 }
 
 impl Numbers {
-    pub(super) fn wrong(&self, key: &str, expected: &'static str) -> WrongKey {
-        WrongKey { key: format!("{}.{key}", self.at), expected }
-    }
-
-    pub(super) fn key<Q: Quantity>(&self) -> String {
-        Q::keys(self.names).pop().unwrap_or_default()
+    pub(super) fn wrong(&self, key: &str, expected: impl Into<String>) -> WrongKey {
+        WrongKey { key: format!("{}.{key}", self.at), expected: expected.into() }
     }
 
     pub(super) fn sane(&self, key: &str, value: f64) -> Result<f64, WrongKey> {
@@ -40,14 +31,27 @@ impl Numbers {
         Ok(value)
     }
 
-    pub(super) fn of<Q: Quantity>(&self, number: &Number<Q>) -> Result<f64, WrongKey> {
-        let key = self.key::<Q>();
-        let value = number.get(self.names).ok_or_else(|| self.wrong(&key, "a number"))?;
-        self.sane(&key, *value)
+    /// A number with the unit that the drive's channels give.
+    pub(super) fn of(
+        &self,
+        key: &str,
+        number: &NumberEntry,
+        unit: impl Into<String>,
+    ) -> Result<f64, WrongKey> {
+        let unit = unit.into();
+        if number.unit != unit {
+            return Err(self.wrong(key, format!("in {unit}")));
+        }
+        self.sane(key, number.value)
     }
 
-    pub(super) fn positive<Q: Quantity>(&self, number: &Number<Q>) -> Result<f64, WrongKey> {
-        let value = self.of(number)?;
-        if value > 0.0 { Ok(value) } else { Err(self.wrong(&self.key::<Q>(), "greater than zero")) }
+    pub(super) fn positive(
+        &self,
+        key: &str,
+        number: &NumberEntry,
+        unit: impl Into<String>,
+    ) -> Result<f64, WrongKey> {
+        let value = self.of(key, number, unit)?;
+        if value > 0.0 { Ok(value) } else { Err(self.wrong(key, "greater than zero")) }
     }
 }

@@ -2,8 +2,10 @@
 
 use lissom_core::drive::Falloff;
 use lissom_core::identify::{ArmSource, Method};
-use lissom_core::record::{Axis, TipQuantity};
+use lissom_core::record::{Axis, CommandQuantity, TipQuantity};
 use serde::{Deserialize, Serialize};
+
+use super::unit_names::UnitNames;
 
 /// Kind of axis.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
@@ -22,6 +24,13 @@ impl AxisName {
         match axis {
             Axis::Rotary => Self::Rotary,
             Axis::Linear => Self::Linear,
+        }
+    }
+
+    fn axis(self) -> Axis {
+        match self {
+            Self::Rotary => Axis::Rotary,
+            Self::Linear => Axis::Linear,
         }
     }
 
@@ -199,5 +208,38 @@ impl MethodName {
             Self::ConstantVelocity => Method::ConstantVelocity,
         };
         method.words()
+    }
+}
+
+/// Unit of the command.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+pub enum CommandUnitName {
+    /// A current.
+    A,
+    /// A voltage.
+    V,
+    /// An unknown unit, or a position error.
+    #[serde(rename = "command")]
+    Command,
+}
+
+impl CommandUnitName {
+    pub(super) fn of(quantity: CommandQuantity) -> Self {
+        match quantity {
+            CommandQuantity::Current => Self::A,
+            CommandQuantity::Voltage => Self::V,
+            CommandQuantity::PositionError | CommandQuantity::Arbitrary => Self::Command,
+        }
+    }
+
+    /// The units of a result.
+    pub(super) fn names(self, axis: AxisName, torque_per_command: Option<f64>) -> UnitNames {
+        let command = match self {
+            Self::A => CommandQuantity::Current,
+            Self::V => CommandQuantity::Voltage,
+            Self::Command => CommandQuantity::Arbitrary,
+        };
+        UnitNames { torque_known: torque_per_command.is_some(), axis: axis.axis(), command }
     }
 }

@@ -4,12 +4,7 @@ use lissom_core::identify::{ConstantVelocity, FrictionLine, LineShape, RunAnalys
 use serde::{Deserialize, Serialize};
 
 use super::channel_names::DirectionName;
-use super::estimate_entry::EstimateEntry;
-use super::estimate_keys::{Estimated, Refusable};
-use super::unit_keys::{
-    BackEmfKey, BackwardKey, CoulombKey, ForwardKey, MeanCommandKey, OffsetKey, SlowestKey,
-    VelocityKey, ViscousKey, WithUnit,
-};
+use super::estimate_entry::{EstimateEntry, NumberEntry};
 use super::unit_names::UnitNames;
 
 /// Friction from constant velocities, extrapolated to zero speed.
@@ -17,23 +12,17 @@ use super::unit_names::UnitNames;
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct ConstantVelocityEntry {
     /// Coulomb friction, mean of both directions.
-    #[serde(flatten)]
-    pub coulomb: Refusable<CoulombKey>,
+    pub coulomb: Option<EstimateEntry>,
     /// Coulomb friction while moving forward.
-    #[serde(flatten)]
-    pub forward: Refusable<ForwardKey>,
+    pub forward: Option<EstimateEntry>,
     /// Coulomb friction while moving backward.
-    #[serde(flatten)]
-    pub backward: Refusable<BackwardKey>,
+    pub backward: Option<EstimateEntry>,
     /// (forward - backward)/2.
-    #[serde(flatten)]
-    pub offset: Refusable<OffsetKey>,
+    pub offset: Option<EstimateEntry>,
     /// Viscous friction, mean of both directions.
-    #[serde(flatten)]
-    pub viscous: Refusable<ViscousKey>,
+    pub viscous: Option<EstimateEntry>,
     /// Damping by back-EMF that the campaign gives, which the slopes do not contain.
-    #[serde(flatten)]
-    pub back_emf: WithUnit<BackEmfKey, f64>,
+    pub back_emf: NumberEntry,
     /// The straight line for each direction that has one.
     pub lines: Vec<FrictionLineEntry>,
     /// Stretches at a constant velocity.
@@ -47,11 +36,9 @@ pub struct FrictionLineEntry {
     /// Direction of motion.
     pub direction: DirectionName,
     /// The line extrapolated to zero speed.
-    #[serde(flatten)]
-    pub coulomb: Refusable<CoulombKey>,
+    pub coulomb: Option<EstimateEntry>,
     /// Its slope, without back-EMF.
-    #[serde(flatten)]
-    pub viscous: Estimated<ViscousKey>,
+    pub viscous: EstimateEntry,
     /// Correlation of both estimates.
     pub correlation: f64,
     /// Number of stretches.
@@ -63,8 +50,7 @@ pub struct FrictionLineEntry {
     /// Size of the quadratic term, or of the scatter (rms), in standard errors; null if a straight line describes them.
     pub standard_errors: Option<f64>,
     /// The value extrapolated from the slowest third of the speeds.
-    #[serde(flatten)]
-    pub slowest: Refusable<SlowestKey>,
+    pub slowest: Option<EstimateEntry>,
 }
 
 /// Whether a straight line describes friction over speed.
@@ -97,34 +83,31 @@ pub struct SteadyPointEntry {
     /// Its end.
     pub end_s: f64,
     /// Velocity with its sign.
-    #[serde(flatten)]
-    pub velocity: Estimated<VelocityKey>,
+    pub velocity: EstimateEntry,
     /// Mean command.
-    #[serde(flatten)]
-    pub command: Estimated<MeanCommandKey>,
+    pub command: EstimateEntry,
 }
 
 impl ConstantVelocityEntry {
-    /// The lines and their friction; `constant` is torque per command.
+    /// The lines and their friction.
     pub(crate) fn of(
         names: UnitNames,
-        constant: f64,
         c: &ConstantVelocity,
         back_emf: f64,
         runs: &[RunAnalysis],
     ) -> Self {
         let (forward, backward) = (c.forward.as_ref().ok(), c.backward.as_ref().ok());
         let both = [(true, forward), (false, backward)];
-        let lines = both.into_iter().filter_map(|(direction, line)| {
-            Some(FrictionLineEntry::of(names, constant, direction, line?))
-        });
+        let lines = both
+            .into_iter()
+            .filter_map(|(direction, line)| Some(FrictionLineEntry::of(names, direction, line?)));
         Self {
-            coulomb: WithUnit::torque(names, constant, c.coulomb),
-            forward: WithUnit::torque(names, constant, forward.map(|l| l.coulomb)),
-            backward: WithUnit::torque(names, constant, backward.map(|l| l.coulomb)),
-            offset: WithUnit::torque(names, constant, c.offset),
-            viscous: WithUnit::new(names, EstimateEntry::or_null(c.viscous)),
-            back_emf: WithUnit::new(names, back_emf),
+            coulomb: EstimateEntry::or_null(c.coulomb, names.torque_unit()),
+            forward: EstimateEntry::or_null(forward.map(|l| l.coulomb), names.torque_unit()),
+            backward: EstimateEntry::or_null(backward.map(|l| l.coulomb), names.torque_unit()),
+            offset: EstimateEntry::or_null(c.offset, names.torque_unit()),
+            viscous: EstimateEntry::or_null(c.viscous, names.viscous_unit()),
+            back_emf: NumberEntry::of(back_emf, names.viscous_unit()),
             lines: lines.collect(),
             points: c.points.iter().map(|p| SteadyPointEntry::of(names, p, runs)).collect(),
         }
@@ -132,7 +115,7 @@ impl ConstantVelocityEntry {
 }
 
 impl FrictionLineEntry {
-    fn of(names: UnitNames, constant: f64, forward: bool, l: &FrictionLine) -> Self {
+    fn of(names: UnitNames, forward: bool, l: &FrictionLine) -> Self {
         let (shape, standard_errors) = match l.shape {
             LineShape::Unchecked => (LineShapeName::Unchecked, None),
             LineShape::Straight => (LineShapeName::Straight, None),
@@ -144,14 +127,14 @@ impl FrictionLineEntry {
         };
         Self {
             direction: DirectionName::of(forward),
-            coulomb: WithUnit::torque(names, constant, Some(l.coulomb)),
-            viscous: WithUnit::new(names, EstimateEntry::of(l.viscous)),
+            coulomb: Some(EstimateEntry::of(l.coulomb, names.torque_unit())),
+            viscous: EstimateEntry::of(l.viscous, names.viscous_unit()),
             correlation: l.correlation,
             points: l.points,
             speeds: l.speeds,
             shape,
             standard_errors,
-            slowest: WithUnit::torque(names, constant, l.slowest),
+            slowest: EstimateEntry::or_null(l.slowest, names.torque_unit()),
         }
     }
 }
@@ -163,8 +146,8 @@ impl SteadyPointEntry {
             direction: DirectionName::of(p.velocity.value > 0.0),
             start_s: p.start_s,
             end_s: p.end_s,
-            velocity: WithUnit::new(names, EstimateEntry::of(p.velocity)),
-            command: WithUnit::new(names, EstimateEntry::of(p.command)),
+            velocity: EstimateEntry::of(p.velocity, names.speed_unit()),
+            command: EstimateEntry::of(p.command, names.command_unit()),
         }
     }
 }

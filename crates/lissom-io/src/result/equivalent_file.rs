@@ -6,14 +6,13 @@ use lissom_core::identify::{
 };
 use serde::{Deserialize, Serialize};
 
-use super::estimate_entry::EstimateEntry;
-use super::estimate_keys::{Estimated, Refusable};
+use super::estimate_entry::{EstimateEntry, NumberEntry};
 use super::finding_entry::FindingEntry;
-use super::unit_keys::{
-    CouplingKey, InertiaKey, MotorTorqueKey, PointTorqueKey, ViscousKey, WithUnit,
-};
 use super::unit_names::UnitNames;
 use crate::model::{RootClassName, StateSpaceEntry, matrix_rows};
+
+/// Unit of A and B of (17).
+const PER_S2: &str = "1/s²";
 
 /// SI units. The suffix of a key is its unit, as in result.schema.json. Rows and columns are the points of the arm, in
 /// the order of `points`. An estimate has its standard error and its 95 % interval, from the covariance of the fit to
@@ -75,8 +74,7 @@ pub struct EquivalentModeEntry {
     /// Share of the mode in the angle of each point per motor angle at frequency zero.
     pub static_gains: Vec<EstimateEntry>,
     /// c_k of C_t/theta_m = sum of c_k*s^2/(s^2 + omega_k^2).
-    #[serde(flatten)]
-    pub coupling: Refusable<CouplingKey>,
+    pub coupling: Option<EstimateEntry>,
 }
 
 /// A pole that is not a mode.
@@ -119,17 +117,13 @@ pub struct EquivalentBeamEntry {
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct EquivalentTorqueEntry {
     /// H of (18).
-    #[serde(flatten)]
-    pub h: WithUnit<PointTorqueKey, Vec<EstimateEntry>>,
+    pub h: Vec<EstimateEntry>,
     /// h_{n+1} of (18), the sum of the modes' couplings.
-    #[serde(flatten)]
-    pub h_motor: Estimated<MotorTorqueKey>,
+    pub h_motor: EstimateEntry,
     /// J, including the inertia of the omitted modes.
-    #[serde(flatten)]
-    pub inertia: Estimated<InertiaKey>,
+    pub inertia: EstimateEntry,
     /// V, including back-EMF.
-    #[serde(flatten)]
-    pub viscous: Estimated<ViscousKey>,
+    pub viscous: EstimateEntry,
     /// Delay of the motor after the command; null if its response does not show one.
     pub delay_s: Option<EstimateEntry>,
     /// Residual of the motor's response relative to its standard errors; null if these are unknown.
@@ -145,11 +139,9 @@ pub struct StrainlessEntry {
     /// B of (17).
     pub b_per_s2: Vec<f64>,
     /// H of (18); null without a motor's response.
-    #[serde(flatten)]
-    pub h: WithUnit<PointTorqueKey, Option<Vec<f64>>>,
+    pub h: Option<NumberEntry<Vec<f64>>>,
     /// h_{n+1} of (18); null without a motor's response.
-    #[serde(flatten)]
-    pub h_motor: WithUnit<MotorTorqueKey, Option<f64>>,
+    pub h_motor: Option<NumberEntry>,
     /// One minus the sum of the fitted gains of each point.
     pub missing: Vec<f64>,
     /// Whether `missing` is significant for a point. Its last mode then gets all of it; otherwise all its modes share
@@ -250,14 +242,17 @@ impl EquivalentEntry {
 impl EquivalentModeEntry {
     fn list(names: UnitNames, found: &Equivalent) -> Vec<Self> {
         let kept = &found.kept;
-        let gain = |k| move |i| EstimateEntry::of(kept.static_gain(i, k));
+        let gain = |k| move |i| EstimateEntry::of(kept.static_gain(i, k), "1");
         let mode = |k: usize| {
             let coupling = found.arm.as_ref().map(|arm| arm.coupling[k]);
             Self {
-                natural_frequency_rad_s: EstimateEntry::of(kept.natural_frequency_rad_s(k)),
-                damping_ratio: EstimateEntry::of(kept.damping_ratio(k)),
+                natural_frequency_rad_s: EstimateEntry::of(
+                    kept.natural_frequency_rad_s(k),
+                    "rad/s",
+                ),
+                damping_ratio: EstimateEntry::of(kept.damping_ratio(k), "1"),
                 static_gains: (0..found.points.len()).map(gain(k)).collect(),
-                coupling: WithUnit::new(names, EstimateEntry::or_null(coupling)),
+                coupling: EstimateEntry::or_null(coupling, names.coupling_unit()),
             }
         };
         (0..found.modes.len()).map(mode).collect()
@@ -285,11 +280,11 @@ impl SpuriousPoleEntry {
 impl EquivalentTorqueEntry {
     fn of(names: UnitNames, std_known: bool, arm: &EquivalentArm) -> Self {
         Self {
-            h: WithUnit::new(names, EstimateEntry::list(arm.h.iter())),
-            h_motor: WithUnit::new(names, EstimateEntry::of(arm.h_motor)),
-            inertia: WithUnit::new(names, EstimateEntry::of(arm.inertia)),
-            viscous: WithUnit::new(names, EstimateEntry::of(arm.viscous)),
-            delay_s: EstimateEntry::or_null(arm.delay_s),
+            h: EstimateEntry::list(arm.h.iter(), names.coupling_unit()),
+            h_motor: EstimateEntry::of(arm.h_motor, names.coupling_unit()),
+            inertia: EstimateEntry::of(arm.inertia, names.inertia_unit()),
+            viscous: EstimateEntry::of(arm.viscous, names.viscous_unit()),
+            delay_s: EstimateEntry::or_null(arm.delay_s, "s"),
             weighted_rms: std_known.then_some(arm.weighted_rms),
         }
     }
@@ -297,12 +292,12 @@ impl EquivalentTorqueEntry {
 
 impl StrainlessEntry {
     fn of(names: UnitNames, torque_known: bool, form: &StrainlessForm) -> Self {
-        let h = torque_known.then(|| form.h.as_slice().to_vec());
+        let unit = || names.coupling_unit();
         Self {
             a_per_s2: matrix_rows(&form.a),
             b_per_s2: form.b.as_slice().to_vec(),
-            h: WithUnit::new(names, h),
-            h_motor: WithUnit::new(names, torque_known.then_some(form.h_motor)),
+            h: torque_known.then(|| NumberEntry::of(form.h.as_slice().to_vec(), unit())),
+            h_motor: torque_known.then(|| NumberEntry::of(form.h_motor, unit())),
             missing: form.missing.as_slice().to_vec(),
             given_to_last_mode: form.given_to_last.clone(),
         }
@@ -316,18 +311,18 @@ impl ResponseZeroEntry {
             class: RootClassName::of(zero.class),
             re_rad_s: s.re,
             im_rad_s: s.im,
-            magnitude_rad_s: EstimateEntry::of(zero.omega_rad_s),
+            magnitude_rad_s: EstimateEntry::of(zero.omega_rad_s, "rad/s"),
             outside: zero.outside,
         }
     }
 }
 
 fn estimates(value: &Matrix, std: &Matrix) -> Vec<Vec<EstimateEntry>> {
-    let one = |i, j| EstimateEntry::of(Estimate { value: value[(i, j)], std: std[(i, j)] });
+    let one = |i, j| EstimateEntry::of(Estimate { value: value[(i, j)], std: std[(i, j)] }, PER_S2);
     (0..value.nrows()).map(|i| (0..value.ncols()).map(|j| one(i, j)).collect()).collect()
 }
 
 fn column(value: &[f64], std: &[f64]) -> Vec<EstimateEntry> {
     let each = value.iter().zip(std);
-    each.map(|(&value, &std)| EstimateEntry::of(Estimate { value, std })).collect()
+    each.map(|(&value, &std)| EstimateEntry::of(Estimate { value, std }, PER_S2)).collect()
 }

@@ -13,12 +13,24 @@ pub struct EstimateEntry {
     pub std: f64,
     /// 95 % interval.
     pub ci95: [f64; 2],
+    /// Unit of these numbers: N·m, A, N·m·s/rad and others; 1 for a ratio.
+    pub unit: String,
+}
+
+/// A number, or several of one kind, with their unit.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+pub struct NumberEntry<T = f64> {
+    /// The number.
+    pub value: T,
+    /// Its unit.
+    pub unit: String,
 }
 
 impl EstimateEntry {
     /// The entry of an estimate.
-    pub fn of(e: Estimate) -> Self {
-        Self { value: e.value, std: e.std, ci95: e.ci95() }
+    pub fn of(e: Estimate, unit: impl Into<String>) -> Self {
+        Self { value: e.value, std: e.std, ci95: e.ci95(), unit: unit.into() }
     }
 
     /// The estimate.
@@ -27,13 +39,24 @@ impl EstimateEntry {
     }
 
     /// The entry of an estimate that may be refused.
-    pub(crate) fn or_null(e: Option<Estimate>) -> Option<Self> {
-        e.map(Self::of)
+    pub(crate) fn or_null(e: Option<Estimate>, unit: impl Into<String>) -> Option<Self> {
+        e.map(|e| Self::of(e, unit))
     }
 
     /// The entries of a list.
-    pub(crate) fn list<'a>(all: impl IntoIterator<Item = &'a Estimate>) -> Vec<Self> {
-        all.into_iter().copied().map(Self::of).collect()
+    pub(crate) fn list<'a>(
+        all: impl IntoIterator<Item = &'a Estimate>,
+        unit: impl Into<String>,
+    ) -> Vec<Self> {
+        let unit = unit.into();
+        all.into_iter().map(|e| Self::of(*e, unit.as_str())).collect()
+    }
+}
+
+impl<T> NumberEntry<T> {
+    /// The entry of a number.
+    pub(crate) fn of(value: T, unit: impl Into<String>) -> Self {
+        Self { value, unit: unit.into() }
     }
 }
 
@@ -51,8 +74,8 @@ impl BeamModeEntry {
     /// The entry of a mode.
     pub fn of(m: &ModeEstimate) -> Self {
         Self {
-            natural_frequency_rad_s: EstimateEntry::of(m.natural_frequency_rad_s),
-            damping_ratio: m.given_damping_ratio().map(EstimateEntry::of),
+            natural_frequency_rad_s: EstimateEntry::of(m.natural_frequency_rad_s, "rad/s"),
+            damping_ratio: EstimateEntry::or_null(m.given_damping_ratio(), "1"),
         }
     }
 

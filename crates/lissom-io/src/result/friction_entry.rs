@@ -3,14 +3,9 @@
 use lissom_core::identify::{CurvePoint, Estimate, Friction, Identified, LawEstimates};
 use serde::{Deserialize, Serialize};
 
-use super::channel_names::{AxisName, DirectionName};
-use super::estimate_entry::EstimateEntry;
-use super::estimate_keys::{Estimated, Refusable};
+use super::channel_names::DirectionName;
+use super::estimate_entry::{EstimateEntry, NumberEntry};
 use super::friction_term_entries::FrictionTermsEntry;
-use super::unit_keys::{
-    BackwardKey, CoulombKey, ForwardKey, FrictionKey, OffsetKey, SpeedKey, SpeedRangeKey,
-    ViscousBackwardKey, ViscousForwardKey, ViscousKey, WithUnit,
-};
 use super::unit_names::UnitNames;
 
 /// Coulomb friction by direction.
@@ -18,17 +13,13 @@ use super::unit_names::UnitNames;
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct CoulombEntry {
     /// Coulomb friction, mean of both directions.
-    #[serde(flatten)]
-    pub coulomb: Refusable<CoulombKey>,
+    pub coulomb: Option<EstimateEntry>,
     /// Coulomb friction while moving forward.
-    #[serde(flatten)]
-    pub forward: Refusable<ForwardKey>,
+    pub forward: Option<EstimateEntry>,
     /// Coulomb friction while moving backward.
-    #[serde(flatten)]
-    pub backward: Refusable<BackwardKey>,
+    pub backward: Option<EstimateEntry>,
     /// (forward - backward)/2.
-    #[serde(flatten)]
-    pub offset: Refusable<OffsetKey>,
+    pub offset: Option<EstimateEntry>,
 }
 
 /// Friction, from the best method that the data allow.
@@ -39,8 +30,7 @@ pub struct FrictionEntry {
     #[serde(flatten)]
     pub coulomb: CoulombEntry,
     /// Viscous friction, without back-EMF if its constant is given.
-    #[serde(flatten)]
-    pub viscous: Refusable<ViscousKey>,
+    pub viscous: Option<EstimateEntry>,
     /// The law of friction, if it has terms beyond Coulomb and viscous friction; these are then the line that is nearest to it at
     /// the speeds of the log, without a load, weighted with time.
     pub law: Option<LawEntry>,
@@ -54,20 +44,19 @@ pub struct FrictionEntry {
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct LawEntry {
     /// Smallest and largest speed for which it was found; absent if they are unknown.
-    #[serde(flatten)]
-    pub speed_range: WithUnit<SpeedRangeKey, [f64; 2]>,
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub speed_range: Option<NumberEntry<[f64; 2]>>,
     /// Its Coulomb friction.
     #[serde(flatten)]
     pub coulomb: CoulombEntry,
     /// Its viscous friction, without back-EMF if its constant is given.
-    #[serde(flatten)]
-    pub viscous: Refusable<ViscousKey>,
+    pub viscous: Option<EstimateEntry>,
     /// Viscous friction forward; absent unless the data reject one value for both directions.
-    #[serde(flatten)]
-    pub viscous_forward: Estimated<ViscousForwardKey>,
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub viscous_forward: Option<EstimateEntry>,
     /// Viscous friction backward; absent unless the data reject one value for both directions.
-    #[serde(flatten)]
-    pub viscous_backward: Estimated<ViscousBackwardKey>,
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub viscous_backward: Option<EstimateEntry>,
     /// Its further terms.
     #[serde(flatten)]
     pub terms: FrictionTermsEntry,
@@ -80,59 +69,50 @@ pub struct CurvePointEntry {
     /// Direction of motion.
     pub direction: DirectionName,
     /// Magnitude of the velocity.
-    #[serde(flatten)]
-    pub speed: WithUnit<SpeedKey, f64>,
+    pub speed: NumberEntry,
     /// Friction against the motion.
-    #[serde(flatten)]
-    pub friction: Refusable<FrictionKey>,
+    pub friction: Option<EstimateEntry>,
     /// Number of windows around this speed.
     pub windows: usize,
 }
 
 impl CoulombEntry {
-    /// The entry of Coulomb friction; `constant` is torque per command.
-    pub(crate) fn of(names: UnitNames, constant: f64, f: &Friction) -> Self {
+    /// The entry of Coulomb friction.
+    pub(crate) fn of(names: UnitNames, f: &Friction) -> Self {
         Self {
-            coulomb: WithUnit::torque(names, constant, f.coulomb),
-            forward: WithUnit::torque(names, constant, f.forward),
-            backward: WithUnit::torque(names, constant, f.backward),
-            offset: WithUnit::torque(names, constant, f.offset),
+            coulomb: EstimateEntry::or_null(f.coulomb, names.torque_unit()),
+            forward: EstimateEntry::or_null(f.forward, names.torque_unit()),
+            backward: EstimateEntry::or_null(f.backward, names.torque_unit()),
+            offset: EstimateEntry::or_null(f.offset, names.torque_unit()),
         }
     }
 }
 
 impl FrictionEntry {
-    /// The units of an axis of this kind, by the keys of Coulomb friction.
-    pub(super) fn names(&self, axis: AxisName) -> Option<UnitNames> {
-        let of_axis = |names: &&UnitNames| AxisName::of(names.axis) == axis;
-        let all = UnitNames::ALL.iter().filter(of_axis);
-        all.copied().find(|names| self.coulomb.coulomb.has_keys_of(*names))
-    }
-
     /// Friction against the motion at a speed in a direction, without ripples and without a load; positive if it brakes. `None`
     /// if one of its parameters is refused.
-    pub fn at(&self, names: UnitNames, speed: f64, direction: DirectionName) -> Option<f64> {
+    pub fn at(&self, speed: f64, direction: DirectionName) -> Option<f64> {
         if let Some(law) = &self.law {
-            return law.at(names, speed, direction);
+            return law.at(speed, direction);
         }
-        let viscous = value(self.viscous.get(names))?;
-        Some(self.coulomb.one_way(names, direction)? + viscous * speed)
+        let viscous = self.viscous.as_ref()?.value;
+        Some(self.coulomb.one_way(direction)? + viscous * speed)
     }
 
-    /// The entry of a result's friction; `constant` is torque per command.
-    pub(crate) fn of(names: UnitNames, constant: f64, id: &Identified) -> Self {
+    /// The entry of a result's friction.
+    pub(crate) fn of(names: UnitNames, id: &Identified) -> Self {
         let f = &id.friction;
         let found = id.friction_law.as_ref();
         let curve = found.map_or(&[][..], |law| &law.curve);
         let speeds = found.map(|law| law.speed_range);
         Self {
-            coulomb: CoulombEntry::of(names, constant, f),
-            viscous: WithUnit::new(names, EstimateEntry::or_null(f.viscous)),
-            law: f.law.as_ref().map(|law| LawEntry::of(names, constant, law, f.offset, speeds)),
+            coulomb: CoulombEntry::of(names, f),
+            viscous: EstimateEntry::or_null(f.viscous, names.viscous_unit()),
+            law: f.law.as_ref().map(|law| LawEntry::of(names, law, f.offset, speeds)),
             curve: curve
                 .iter()
                 .filter(|p| p.friction.value.is_finite() && p.friction.std.is_finite())
-                .map(|p| CurvePointEntry::of(names, constant, p))
+                .map(|p| CurvePointEntry::of(names, p))
                 .collect(),
         }
     }
@@ -140,40 +120,32 @@ impl FrictionEntry {
 
 impl CoulombEntry {
     /// Coulomb friction in a direction; `None` if it is refused.
-    fn one_way(&self, names: UnitNames, direction: DirectionName) -> Option<f64> {
-        match direction {
-            DirectionName::Forward => value(self.forward.get(names)),
-            DirectionName::Backward => value(self.backward.get(names)),
-        }
+    fn one_way(&self, direction: DirectionName) -> Option<f64> {
+        let entry = match direction {
+            DirectionName::Forward => &self.forward,
+            DirectionName::Backward => &self.backward,
+        };
+        Some(entry.as_ref()?.value)
     }
 }
 
-/// The value of an estimate that is not refused.
-fn value(entry: Option<&Option<EstimateEntry>>) -> Option<f64> {
-    Some(entry?.as_ref()?.value)
-}
-
 impl LawEntry {
-    fn at(&self, names: UnitNames, speed: f64, direction: DirectionName) -> Option<f64> {
+    fn at(&self, speed: f64, direction: DirectionName) -> Option<f64> {
         let one_way = match direction {
-            DirectionName::Forward => self.viscous_forward.get(names),
-            DirectionName::Backward => self.viscous_backward.get(names),
+            DirectionName::Forward => &self.viscous_forward,
+            DirectionName::Backward => &self.viscous_backward,
         };
-        let viscous = match one_way {
-            Some(viscous) => viscous.value,
-            None => value(self.viscous.get(names))?,
-        };
+        let viscous = one_way.as_ref().or(self.viscous.as_ref())?.value;
         let near = self.terms.near_rest.as_ref().map_or(Some(0.0), |near| {
-            let share = near.falloff.falloff().share(speed / near.speed.get(names)?.value);
-            Some(value(near.amplitude.get(names))? * share)
+            let share = near.falloff.falloff().share(speed / near.speed.value);
+            Some(near.amplitude.as_ref()?.value * share)
         });
-        let root = self.terms.root.get(names).map_or(0.0, |root| root.value * speed.sqrt());
-        Some(self.coulomb.one_way(names, direction)? + viscous * speed + near? + root)
+        let root = self.terms.root.as_ref().map_or(0.0, |root| root.value * speed.sqrt());
+        Some(self.coulomb.one_way(direction)? + viscous * speed + near? + root)
     }
 
     fn of(
         names: UnitNames,
-        constant: f64,
         law: &LawEstimates,
         offset: Option<Estimate>,
         speeds: Option<[f64; 2]>,
@@ -187,22 +159,22 @@ impl LawEntry {
             ..Friction::default()
         };
         Self {
-            speed_range: WithUnit::where_some(names, speeds),
-            coulomb: CoulombEntry::of(names, constant, &coulomb),
-            viscous: WithUnit::new(names, EstimateEntry::or_null(law.viscous)),
-            viscous_forward: WithUnit::where_some(names, EstimateEntry::or_null(forward)),
-            viscous_backward: WithUnit::where_some(names, EstimateEntry::or_null(backward)),
-            terms: FrictionTermsEntry::of(names, constant, law),
+            speed_range: speeds.map(|v| NumberEntry::of(v, names.speed_unit())),
+            coulomb: CoulombEntry::of(names, &coulomb),
+            viscous: EstimateEntry::or_null(law.viscous, names.viscous_unit()),
+            viscous_forward: EstimateEntry::or_null(forward, names.viscous_unit()),
+            viscous_backward: EstimateEntry::or_null(backward, names.viscous_unit()),
+            terms: FrictionTermsEntry::of(names, law),
         }
     }
 }
 
 impl CurvePointEntry {
-    fn of(names: UnitNames, constant: f64, p: &CurvePoint) -> Self {
+    fn of(names: UnitNames, p: &CurvePoint) -> Self {
         Self {
             direction: DirectionName::of(p.direction > 0.0),
-            speed: WithUnit::new(names, p.speed),
-            friction: WithUnit::torque(names, constant, Some(p.friction)),
+            speed: NumberEntry::of(p.speed, names.speed_unit()),
+            friction: Some(EstimateEntry::of(p.friction, names.torque_unit())),
             windows: p.windows,
         }
     }

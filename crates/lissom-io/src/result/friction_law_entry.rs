@@ -4,14 +4,9 @@ use lissom_core::identify::{Estimate, FrictionLaw, LawCandidate, LawFit, LawTerm
 use serde::{Deserialize, Serialize};
 
 use super::channel_names::DirectionName;
-use super::estimate_entry::{EstimateEntry, finite};
-use super::estimate_keys::{Estimated, Refusable};
-use super::friction_term_entries::{LawTermEntry, amplitude_key};
+use super::estimate_entry::{EstimateEntry, NumberEntry, finite};
+use super::friction_term_entries::{LawTermEntry, amplitude_unit};
 use super::gravity_entry::GravityEntry;
-use super::unit_keys::{
-    CoulombKey, CouplingKey, InertiaKey, LawAmplitudeKey, OffsetKey, SpeedRangeKey, ViscousKey,
-    WithUnit,
-};
 use super::unit_names::UnitNames;
 
 /// The friction law that the data support, on short windows in slip phases.
@@ -21,8 +16,7 @@ pub struct FrictionLawEntry {
     /// Length of the windows.
     pub window_s: f64,
     /// Slowest and fastest speed of the windows; law and curve hold between these.
-    #[serde(flatten)]
-    pub speed_range: WithUnit<SpeedRangeKey, [f64; 2]>,
+    pub speed_range: NumberEntry<[f64; 2]>,
     /// Residuals of the windowed torque, as shares.
     pub relative_residual: LawResidualEntry,
     /// Estimates with the chosen law.
@@ -48,20 +42,15 @@ pub struct LawResidualEntry {
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct ChosenLawEntry {
     /// Coulomb friction.
-    #[serde(flatten)]
-    pub coulomb: Refusable<CoulombKey>,
+    pub coulomb: Option<EstimateEntry>,
     /// Offset.
-    #[serde(flatten)]
-    pub offset: Refusable<OffsetKey>,
+    pub offset: Option<EstimateEntry>,
     /// Viscous friction.
-    #[serde(flatten)]
-    pub viscous: Refusable<ViscousKey>,
+    pub viscous: Option<EstimateEntry>,
     /// Inertia or mass.
-    #[serde(flatten)]
-    pub inertia: Refusable<InertiaKey>,
+    pub inertia: Option<EstimateEntry>,
     /// Coupling between motor and beam.
-    #[serde(flatten)]
-    pub coupling: Refusable<CouplingKey>,
+    pub coupling: Option<EstimateEntry>,
     /// Gravity; null unless the campaign asks for it.
     pub gravity: Option<GravityEntry>,
     /// Further terms of friction.
@@ -76,8 +65,7 @@ pub struct ChosenTermEntry {
     #[serde(flatten)]
     pub term: LawTermEntry,
     /// Its amplitude, for a ripple of cosine and sine; empty if it has none.
-    #[serde(flatten)]
-    pub amplitude: WithUnit<LawAmplitudeKey, Vec<EstimateEntry>>,
+    pub amplitude: Vec<EstimateEntry>,
 }
 
 /// A term that was tried.
@@ -90,8 +78,7 @@ pub struct LawCandidateEntry {
     /// Number of terms that the model had before.
     pub beside_terms: usize,
     /// Its amplitude; for a term with several numbers, their length.
-    #[serde(flatten)]
-    pub amplitude: Estimated<LawAmplitudeKey>,
+    pub amplitude: EstimateEntry,
     /// Squared residual that it saves in blocks that were left out of the fit, as a share of that without it.
     pub saved: f64,
     /// The same in standard errors; null if there are too few blocks.
@@ -103,14 +90,14 @@ pub struct LawCandidateEntry {
 }
 
 impl FrictionLawEntry {
-    /// The entry of the choice of a law; `constant` is torque per command.
-    pub(crate) fn of(names: UnitNames, constant: f64, law: &FrictionLaw) -> Self {
+    /// The entry of the choice of a law.
+    pub(crate) fn of(names: UnitNames, law: &FrictionLaw) -> Self {
         let [simplest, chosen, curve] = law.relative_residual;
         Self {
             window_s: law.window_s,
-            speed_range: WithUnit::new(names, law.speed_range),
+            speed_range: NumberEntry::of(law.speed_range, names.speed_unit()),
             relative_residual: LawResidualEntry { simplest, chosen, curve },
-            chosen: ChosenLawEntry::of(names, constant, &law.chosen),
+            chosen: ChosenLawEntry::of(names, &law.chosen),
             candidates: law.candidates.iter().map(|c| LawCandidateEntry::of(names, c)).collect(),
         }
     }
@@ -119,32 +106,31 @@ impl FrictionLawEntry {
 impl ChosenLawEntry {
     /// Friction against the motion at a speed in a direction, without ripples; positive if it brakes. `None` if Coulomb or
     /// viscous friction is refused.
-    pub fn at(&self, names: UnitNames, speed: f64, direction: DirectionName) -> Option<f64> {
-        let value = |entry: Option<&Option<EstimateEntry>>| Some(entry?.as_ref()?.value);
-        let mut sum = value(self.coulomb.get(names))? + value(self.viscous.get(names))? * speed;
-        sum += direction.sign() * value(self.offset.get(names)).unwrap_or(0.0);
+    pub fn at(&self, speed: f64, direction: DirectionName) -> Option<f64> {
+        let mut sum = self.coulomb.as_ref()?.value + self.viscous.as_ref()?.value * speed;
+        sum += direction.sign() * self.offset.as_ref().map_or(0.0, |e| e.value);
         for ChosenTermEntry { term, amplitude } in &self.terms {
-            let amplitude = amplitude.any().and_then(|all| all.first()).map_or(0.0, |e| e.value);
-            sum += amplitude * term.share(names, speed, direction);
+            let amplitude = amplitude.first().map_or(0.0, |e| e.value);
+            sum += amplitude * term.share(speed, direction);
         }
         Some(sum)
     }
 
-    fn of(names: UnitNames, constant: f64, fit: &LawFit) -> Self {
+    fn of(names: UnitNames, fit: &LawFit) -> Self {
         let term = |(term, amplitudes): &(LawTerm, Vec<Estimate>)| ChosenTermEntry {
             term: LawTermEntry::of(names, *term),
             // The period of a ripple has a key of its own.
-            amplitude: WithUnit::under(
-                amplitude_key(names, *term),
-                EstimateEntry::list(amplitudes.iter().take(numbers_of(*term))),
+            amplitude: EstimateEntry::list(
+                amplitudes.iter().take(numbers_of(*term)),
+                amplitude_unit(names, ModelTerm::Law(*term)),
             ),
         };
         Self {
-            coulomb: WithUnit::torque(names, constant, fit.coulomb),
-            offset: WithUnit::torque(names, constant, fit.offset),
-            viscous: WithUnit::new(names, EstimateEntry::or_null(fit.viscous)),
-            inertia: WithUnit::new(names, EstimateEntry::or_null(fit.inertia)),
-            coupling: WithUnit::new(names, EstimateEntry::or_null(fit.total_coupling)),
+            coulomb: EstimateEntry::or_null(fit.coulomb, names.torque_unit()),
+            offset: EstimateEntry::or_null(fit.offset, names.torque_unit()),
+            viscous: EstimateEntry::or_null(fit.viscous, names.viscous_unit()),
+            inertia: EstimateEntry::or_null(fit.inertia, names.inertia_unit()),
+            coupling: EstimateEntry::or_null(fit.total_coupling, names.coupling_unit()),
             gravity: fit.gravity.as_ref().map(|g| GravityEntry::of(names, g, None)),
             terms: fit.terms.iter().map(term).collect(),
         }
@@ -158,14 +144,10 @@ fn numbers_of(term: LawTerm) -> usize {
 
 impl LawCandidateEntry {
     fn of(names: UnitNames, c: &LawCandidate) -> Self {
-        let key = match c.term {
-            ModelTerm::Law(term) => amplitude_key(names, term),
-            ModelTerm::Missing(_) => "amplitude".to_owned(),
-        };
         Self {
             term: LawTermEntry::of_model(names, c.term),
             beside_terms: c.beside,
-            amplitude: WithUnit::under(key, EstimateEntry::of(c.amplitude)),
+            amplitude: EstimateEntry::of(c.amplitude, amplitude_unit(names, c.term)),
             saved: c.saved,
             standard_errors: finite(c.standard_errors),
             across_kinds: c.across_kinds,

@@ -9,14 +9,9 @@ use lissom_core::load::{GravityLoad, TorqueRipple};
 use lissom_core::replay::{DryTerms, NearRest, Ripple, Root, WithLoad};
 use serde::{Deserialize, Serialize};
 
-use super::arm_numbers::{Number, Numbers, WrongKey};
+use super::arm_numbers::{Numbers, WrongKey};
 use super::channel_names::{DirectionName, FalloffName};
-use super::estimate_entry::EstimateEntry;
-use super::estimate_keys::{Estimated, Refusable};
-use super::unit_keys::{
-    AmplitudeKey, CosineKey, PeriodKey, RootAmplitudeKey, RootKey, SineKey, SpeedKey, StaticKey,
-    WithUnit,
-};
+use super::estimate_entry::{EstimateEntry, NumberEntry};
 use super::unit_names::UnitNames;
 
 /// Shortest period of a ripple, in radians or metres, because a simulation follows each wave.
@@ -33,8 +28,8 @@ pub struct FrictionTermsEntry {
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub with_load: Option<EstimateEntry>,
     /// Growth with the square root of speed, s*A*sqrt|v|; absent unless the data show it.
-    #[serde(flatten)]
-    pub root: Estimated<RootKey>,
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub root: Option<EstimateEntry>,
     /// Ripples of friction over the travel x, s*A*cos(2*pi*x/period + phase), s the direction; absent unless the data
     /// show them.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
@@ -49,14 +44,11 @@ pub struct FrictionTermsEntry {
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct NearRestEntry {
     /// Amplitude A.
-    #[serde(flatten)]
-    pub amplitude: Refusable<AmplitudeKey>,
+    pub amplitude: Option<EstimateEntry>,
     /// Static friction, the sum of Coulomb friction and A; null unless A is significantly above zero.
-    #[serde(flatten)]
-    pub static_friction: Refusable<StaticKey>,
+    pub static_friction: Option<EstimateEntry>,
     /// Speed v_s.
-    #[serde(flatten)]
-    pub speed: Estimated<SpeedKey>,
+    pub speed: EstimateEntry,
     /// Which of the two forms.
     pub falloff: FalloffName,
 }
@@ -66,11 +58,9 @@ pub struct NearRestEntry {
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct RippleEntry {
     /// Amplitude A.
-    #[serde(flatten)]
-    pub amplitude: Refusable<AmplitudeKey>,
+    pub amplitude: Option<EstimateEntry>,
     /// Its period.
-    #[serde(flatten)]
-    pub period: Estimated<PeriodKey>,
+    pub period: EstimateEntry,
 }
 
 /// Terms of an arm's friction in addition to Coulomb and viscous friction.
@@ -95,8 +85,7 @@ pub struct ArmTermsEntry {
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct ArmRootEntry {
     /// Amplitude A.
-    #[serde(flatten)]
-    pub amplitude: Number<RootAmplitudeKey>,
+    pub amplitude: NumberEntry,
 }
 
 /// Friction that grows with the torque of gravity: s*mu*sqrt(g^2 + d^2) with g = sine*sin(q) + cosine*cos(q), q the motor's
@@ -107,11 +96,9 @@ pub struct ArmWithLoadEntry {
     /// Coefficient mu.
     pub coefficient: f64,
     /// Coefficient of sin(q).
-    #[serde(flatten)]
-    pub sine: Number<SineKey>,
+    pub sine: NumberEntry,
     /// Coefficient of cos(q).
-    #[serde(flatten)]
-    pub cosine: Number<CosineKey>,
+    pub cosine: NumberEntry,
 }
 
 /// Friction near rest: s*A*exp(-|v|/v_s) or s*A*exp(-(v/v_s)^2), s the direction. Friction at rest is Coulomb friction
@@ -120,11 +107,9 @@ pub struct ArmWithLoadEntry {
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct ArmNearRestEntry {
     /// Amplitude A.
-    #[serde(flatten)]
-    pub amplitude: Number<AmplitudeKey>,
+    pub amplitude: NumberEntry,
     /// Speed v_s.
-    #[serde(flatten)]
-    pub speed: Number<SpeedKey>,
+    pub speed: NumberEntry,
     /// Which of the two forms.
     pub falloff: FalloffName,
 }
@@ -134,14 +119,11 @@ pub struct ArmNearRestEntry {
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct ArmRippleEntry {
     /// Its period.
-    #[serde(flatten)]
-    pub period: Number<PeriodKey>,
+    pub period: NumberEntry,
     /// Amplitude of the cosine.
-    #[serde(flatten)]
-    pub cosine: Number<CosineKey>,
+    pub cosine: NumberEntry,
     /// Amplitude of the sine.
-    #[serde(flatten)]
-    pub sine: Number<SineKey>,
+    pub sine: NumberEntry,
 }
 
 /// A torque ripple (cogging) of the motor: cosine*cos(k*x) + sine*sin(k*x) over the travel x, k = 2*pi/period, in both
@@ -164,11 +146,11 @@ pub struct LawTermEntry {
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub falloff: Option<FalloffName>,
     /// Speed v_s; only for `near-rest`.
-    #[serde(flatten)]
-    pub speed: WithUnit<SpeedKey, f64>,
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub speed: Option<NumberEntry>,
     /// Its period; only for `ripple` and `torque-ripple`.
-    #[serde(flatten)]
-    pub period: WithUnit<PeriodKey, f64>,
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub period: Option<NumberEntry>,
 }
 
 /// A term of friction.
@@ -209,38 +191,34 @@ pub enum LawTermName {
 }
 
 impl FrictionTermsEntry {
-    /// The entry of the estimated terms; `constant` is torque per command.
-    pub(super) fn of(names: UnitNames, constant: f64, f: &LawEstimates) -> Self {
+    /// The entry of the estimated terms.
+    pub(super) fn of(names: UnitNames, f: &LawEstimates) -> Self {
         Self {
-            near_rest: f.near_rest.map(|near| NearRestEntry::of(names, constant, near)),
-            with_load: f.with_load.map(EstimateEntry::of),
-            root: WithUnit::where_some(names, f.root.map(EstimateEntry::of)),
-            ripples: f.ripples.iter().map(|r| RippleEntry::of(names, constant, *r)).collect(),
-            torque_ripples: f
-                .torque_ripples
-                .iter()
-                .map(|r| RippleEntry::of(names, constant, *r))
-                .collect(),
+            near_rest: f.near_rest.map(|near| NearRestEntry::of(names, near)),
+            with_load: EstimateEntry::or_null(f.with_load, "1"),
+            root: EstimateEntry::or_null(f.root, names.root_unit()),
+            ripples: f.ripples.iter().map(|r| RippleEntry::of(names, *r)).collect(),
+            torque_ripples: f.torque_ripples.iter().map(|r| RippleEntry::of(names, *r)).collect(),
         }
     }
 }
 
 impl NearRestEntry {
-    fn of(names: UnitNames, constant: f64, near: NearRestEstimate) -> Self {
+    fn of(names: UnitNames, near: NearRestEstimate) -> Self {
         Self {
-            amplitude: WithUnit::torque(names, constant, Some(near.torque)),
-            static_friction: WithUnit::torque(names, constant, near.static_friction()),
-            speed: WithUnit::new(names, EstimateEntry::of(near.speed)),
+            amplitude: Some(EstimateEntry::of(near.torque, names.torque_unit())),
+            static_friction: EstimateEntry::or_null(near.static_friction(), names.torque_unit()),
+            speed: EstimateEntry::of(near.speed, names.speed_unit()),
             falloff: FalloffName::of(near.falloff),
         }
     }
 }
 
 impl RippleEntry {
-    fn of(names: UnitNames, constant: f64, ripple: RippleEstimate) -> Self {
+    fn of(names: UnitNames, ripple: RippleEstimate) -> Self {
         Self {
-            amplitude: WithUnit::torque(names, constant, Some(ripple.torque)),
-            period: WithUnit::new(names, EstimateEntry::of(ripple.period())),
+            amplitude: Some(EstimateEntry::of(ripple.torque, names.torque_unit())),
+            period: EstimateEntry::of(ripple.period(), names.angle()),
         }
     }
 }
@@ -251,12 +229,12 @@ impl ArmTermsEntry {
             near_rest: terms.near_rest.map(|n| ArmNearRestEntry::of(names, &n)),
             ripples: terms.ripples.iter().map(|r| ArmRippleEntry::of(names, r)).collect(),
             root: terms.root.map(|root| ArmRootEntry {
-                amplitude: WithUnit::new(names, root.torque_nm_per_root_rad_s),
+                amplitude: NumberEntry::of(root.torque_nm_per_root_rad_s, names.root_unit()),
             }),
             with_load: terms.with_load.map(|term| ArmWithLoadEntry {
                 coefficient: term.coefficient,
-                sine: WithUnit::new(names, term.load.sine_nm),
-                cosine: WithUnit::new(names, term.load.cosine_nm),
+                sine: NumberEntry::of(term.load.sine_nm, names.torque_unit()),
+                cosine: NumberEntry::of(term.load.cosine_nm, names.torque_unit()),
             }),
         }
     }
@@ -275,18 +253,18 @@ impl ArmTermsEntry {
 impl ArmNearRestEntry {
     fn of(names: UnitNames, n: &NearRest) -> Self {
         Self {
-            amplitude: WithUnit::new(names, n.torque_nm),
-            speed: WithUnit::new(names, n.speed_rad_s),
+            amplitude: NumberEntry::of(n.torque_nm, names.torque_unit()),
+            speed: NumberEntry::of(n.speed_rad_s, names.speed_unit()),
             falloff: FalloffName::of(n.falloff),
         }
     }
 
     fn near_rest(&self, names: UnitNames) -> Result<NearRest, WrongKey> {
-        let number = Numbers { names, at: "arm.near_rest" };
+        let number = Numbers { at: "arm.near_rest" };
         Ok(NearRest {
             offset_nm: 0.0,
-            torque_nm: number.of(&self.amplitude)?,
-            speed_rad_s: number.positive(&self.speed)?,
+            torque_nm: number.of("amplitude", &self.amplitude, names.torque_unit())?,
+            speed_rad_s: number.positive("speed", &self.speed, names.speed_unit())?,
             falloff: self.falloff.falloff(),
         })
     }
@@ -294,15 +272,17 @@ impl ArmNearRestEntry {
 
 impl ArmRootEntry {
     fn root(&self, names: UnitNames) -> Result<Root, WrongKey> {
-        let number = Numbers { names, at: "arm.root" };
-        Ok(Root { torque_nm_per_root_rad_s: number.of(&self.amplitude)? })
+        let number = Numbers { at: "arm.root" };
+        let amplitude = number.of("amplitude", &self.amplitude, names.root_unit())?;
+        Ok(Root { torque_nm_per_root_rad_s: amplitude })
     }
 }
 
 impl ArmWithLoadEntry {
     fn with_load(&self, names: UnitNames) -> Result<WithLoad, WrongKey> {
-        let number = Numbers { names, at: "arm.with_load" };
-        let (sine_nm, cosine_nm) = (number.of(&self.sine)?, number.of(&self.cosine)?);
+        let number = Numbers { at: "arm.with_load" };
+        let sine_nm = number.of("sine", &self.sine, names.torque_unit())?;
+        let cosine_nm = number.of("cosine", &self.cosine, names.torque_unit())?;
         let coefficient = number.sane("coefficient", self.coefficient)?;
         Ok(WithLoad { coefficient, load: GravityLoad { sine_nm, cosine_nm } })
     }
@@ -324,22 +304,22 @@ impl ArmTorqueRippleEntry {
 impl ArmRippleEntry {
     fn of(names: UnitNames, r: &Ripple) -> Self {
         Self {
-            period: WithUnit::new(names, TAU / r.per_rad),
-            cosine: WithUnit::new(names, r.cosine_nm),
-            sine: WithUnit::new(names, r.sine_nm),
+            period: NumberEntry::of(TAU / r.per_rad, names.angle()),
+            cosine: NumberEntry::of(r.cosine_nm, names.torque_unit()),
+            sine: NumberEntry::of(r.sine_nm, names.torque_unit()),
         }
     }
 
     fn ripple(&self, names: UnitNames, at: &'static str) -> Result<Ripple, WrongKey> {
-        let number = Numbers { names, at };
-        let period = number.of(&self.period)?;
+        let number = Numbers { at };
+        let period = number.of("period", &self.period, names.angle())?;
         if period < SHORTEST {
-            return Err(number.wrong(&number.key::<PeriodKey>(), "1e-6 or more"));
+            return Err(number.wrong("period", "1e-6 or more"));
         }
         Ok(Ripple {
             per_rad: TAU / period,
-            cosine_nm: number.of(&self.cosine)?,
-            sine_nm: number.of(&self.sine)?,
+            cosine_nm: number.of("cosine", &self.cosine, names.torque_unit())?,
+            sine_nm: number.of("sine", &self.sine, names.torque_unit())?,
         })
     }
 }
@@ -351,26 +331,22 @@ impl LawTermEntry {
             ModelTerm::Missing(kind) => Self {
                 term: LawTermName::of_missing(kind),
                 falloff: None,
-                speed: WithUnit::absent(),
-                period: WithUnit::absent(),
+                speed: None,
+                period: None,
             },
         }
     }
 
     pub(super) fn of(names: UnitNames, term: LawTerm) -> Self {
-        let mut entry = Self {
-            term: LawTermName::of(term),
-            falloff: None,
-            speed: WithUnit::absent(),
-            period: WithUnit::absent(),
-        };
+        let mut entry =
+            Self { term: LawTermName::of(term), falloff: None, speed: None, period: None };
         match term {
             LawTerm::NearRest { speed, falloff } => {
                 entry.falloff = Some(FalloffName::of(falloff));
-                entry.speed = WithUnit::new(names, speed);
+                entry.speed = Some(NumberEntry::of(speed, names.speed_unit()));
             }
             LawTerm::Ripple { per_angle } | LawTerm::TorqueRipple { per_angle } => {
-                entry.period = WithUnit::new(names, TAU / per_angle);
+                entry.period = Some(NumberEntry::of(TAU / per_angle, names.angle()));
             }
             LawTerm::ViscousByDirection
             | LawTerm::Root
@@ -383,12 +359,12 @@ impl LawTermEntry {
 
 impl LawTermEntry {
     /// Friction against the motion at a speed in a direction, for an amplitude of one; zero for what is no function of speed.
-    pub(super) fn share(&self, names: UnitNames, speed: f64, direction: DirectionName) -> f64 {
+    pub(super) fn share(&self, speed: f64, direction: DirectionName) -> f64 {
         match self.term {
             LawTermName::ViscousByDirection => direction.sign() * speed,
             LawTermName::NearRest => {
-                let (fall, falloff) = (self.speed.get(names), self.falloff);
-                fall.zip(falloff).map_or(0.0, |(fall, of)| of.falloff().share(speed / fall))
+                let both = self.speed.as_ref().zip(self.falloff);
+                both.map_or(0.0, |(fall, of)| of.falloff().share(speed / fall.value))
             }
             LawTermName::Root => speed.sqrt(),
             _ => 0.0,
@@ -444,15 +420,15 @@ impl LawTermName {
     }
 }
 
-/// The key `amplitude` with the unit of the term.
-pub(super) fn amplitude_key(names: UnitNames, term: LawTerm) -> String {
+/// The unit of the amplitude of a term.
+pub(super) fn amplitude_unit(names: UnitNames, term: ModelTerm) -> String {
     match term {
-        LawTerm::ViscousByDirection => names.viscous_key("amplitude"),
-        LawTerm::NearRest { .. } | LawTerm::Ripple { .. } | LawTerm::TorqueRipple { .. } => {
-            format!("amplitude_{}", names.torque())
-        }
-        LawTerm::Root => names.root_key("amplitude"),
-        LawTerm::WithLoad { .. } => "amplitude".to_owned(),
-        LawTerm::CommandLag => "amplitude_s".to_owned(),
+        ModelTerm::Law(LawTerm::ViscousByDirection) => names.viscous_unit(),
+        ModelTerm::Law(
+            LawTerm::NearRest { .. } | LawTerm::Ripple { .. } | LawTerm::TorqueRipple { .. },
+        ) => names.torque_unit().to_owned(),
+        ModelTerm::Law(LawTerm::Root) => names.root_unit(),
+        ModelTerm::Law(LawTerm::CommandLag) => "s".to_owned(),
+        ModelTerm::Law(LawTerm::WithLoad { .. }) | ModelTerm::Missing(_) => "1".to_owned(),
     }
 }

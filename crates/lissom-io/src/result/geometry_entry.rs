@@ -77,7 +77,7 @@ impl ExplanationEntry {
         Self {
             quantity,
             span: span.map(|i| i + 1),
-            factor: EstimateEntry::of(e.factor),
+            factor: EstimateEntry::of(e.factor, "1"),
             left_rms: e.left,
             as_good_as_first,
         }

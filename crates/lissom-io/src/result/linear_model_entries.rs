@@ -175,7 +175,7 @@ impl LinearModelEntries {
                 ModelSource::Responses => ModelSourceName::Responses,
             },
             motor: models.motor.as_ref().map(TransferFunctionEntry::of),
-            motor_delay_s: EstimateEntry::or_null(models.motor_delay),
+            motor_delay_s: EstimateEntry::or_null(models.motor_delay, "s"),
             motor_covariance: covariance_rows(models.motor_covariance.as_ref()),
             tips: channels.tips.iter().zip(&models.tips).map(tip).collect(),
             state_space: models.state_space.as_ref().map(StateSpaceEntry::of),

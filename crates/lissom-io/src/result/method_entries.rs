@@ -8,17 +8,12 @@ use lissom_core::record::Channels;
 use serde::{Deserialize, Serialize};
 
 use super::constant_velocity_entry::ConstantVelocityEntry;
-use super::estimate_entry::{BeamModeEntry, EstimateEntry, finite};
-use super::estimate_keys::{Estimated, Refusable};
+use super::estimate_entry::{BeamModeEntry, EstimateEntry, NumberEntry, finite};
 use super::friction_entry::CoulombEntry;
 use super::friction_law_entry::FrictionLawEntry;
 use super::gravity_entry::GravityEntry;
 use super::linear_model_entries::TransferFunctionEntry;
 use super::output_error_entry::OutputErrorEntry;
-use super::unit_keys::{
-    CoulombKey, CouplingByModeKey, CouplingByTipKey, InertiaKey, SpeedRangeKey, SpreadKey,
-    ViscousKey, WithUnit,
-};
 use super::unit_names::UnitNames;
 
 /// Estimates of each method; null if the method was not used or the data do not allow it.
@@ -43,12 +38,10 @@ pub struct MethodEntries {
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct ThirdHarmonicEntry {
-    /// Mean of the pairs that are used.
-    #[serde(flatten)]
-    pub coulomb: Refusable<CoulombKey>,
+    /// Mean of the pairs that are used, in the unit of the command.
+    pub coulomb: EstimateEntry,
     /// Standard deviation of one pair around the mean.
-    #[serde(flatten)]
-    pub spread: WithUnit<SpreadKey, f64>,
+    pub spread: NumberEntry,
     /// Every pair of sines.
     pub pairs: Vec<SinePairEntry>,
     /// Model (35) of the response that is corrected with this mean.
@@ -65,9 +58,8 @@ pub struct SinePairEntry {
     pub run: String,
     /// Run at three times this frequency.
     pub triple_run: String,
-    /// Coulomb friction from this pair.
-    #[serde(flatten)]
-    pub coulomb: Estimated<CoulombKey>,
+    /// Coulomb friction from this pair, in the unit of the command.
+    pub coulomb: EstimateEntry,
     /// Cost (29) at its minimum.
     pub cost: f64,
     /// Whether the mean includes it.
@@ -79,14 +71,11 @@ pub struct SinePairEntry {
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct MotorFitEntry {
     /// Inertia or mass.
-    #[serde(flatten)]
-    pub inertia: Estimated<InertiaKey>,
+    pub inertia: EstimateEntry,
     /// Viscous friction, including back-EMF.
-    #[serde(flatten)]
-    pub viscous: Estimated<ViscousKey>,
+    pub viscous: EstimateEntry,
     /// Coupling through each mode.
-    #[serde(flatten)]
-    pub coupling_by_mode: WithUnit<CouplingByModeKey, Vec<EstimateEntry>>,
+    pub coupling_by_mode: Vec<EstimateEntry>,
     /// Motor angle per command as (35).
     pub motor: TransferFunctionEntry,
     /// Root mean square of the residuals relative to the standard errors of the response.
@@ -101,14 +90,11 @@ pub struct RegressionEntry {
     #[serde(flatten)]
     pub coulomb: CoulombEntry,
     /// Viscous friction.
-    #[serde(flatten)]
-    pub viscous: Refusable<ViscousKey>,
+    pub viscous: Option<EstimateEntry>,
     /// Inertia or mass.
-    #[serde(flatten)]
-    pub inertia: Refusable<InertiaKey>,
+    pub inertia: Option<EstimateEntry>,
     /// Coupling by tip.
-    #[serde(flatten)]
-    pub coupling_by_tip: WithUnit<CouplingByTipKey, Vec<Option<EstimateEntry>>>,
+    pub coupling_by_tip: Vec<Option<EstimateEntry>>,
     /// Gravity; null unless the campaign asks for it.
     pub gravity: Option<GravityEntry>,
     /// A flexible mode without a tip, which the estimates account for; null if there is none.
@@ -148,9 +134,9 @@ pub struct HiddenModeEntry {
 impl HiddenModeEntry {
     fn of(mode: HiddenMode) -> Self {
         Self {
-            natural_frequency_rad_s: EstimateEntry::of(mode.omega_rad_s),
-            damping_ratio: EstimateEntry::of(mode.damping_ratio),
-            inertia_share: EstimateEntry::of(mode.inertia_share),
+            natural_frequency_rad_s: EstimateEntry::of(mode.omega_rad_s, "rad/s"),
+            damping_ratio: EstimateEntry::of(mode.damping_ratio, "1"),
+            inertia_share: EstimateEntry::of(mode.inertia_share, "1"),
             residual_ratio: mode.residual_ratio,
             window_s: mode.window_s,
         }
@@ -166,19 +152,15 @@ pub struct LeastSquaresEntry {
     #[serde(flatten)]
     pub coulomb: CoulombEntry,
     /// Viscous friction.
-    #[serde(flatten)]
-    pub viscous: Refusable<ViscousKey>,
+    pub viscous: Option<EstimateEntry>,
     /// Inertia or mass.
-    #[serde(flatten)]
-    pub inertia: Refusable<InertiaKey>,
+    pub inertia: Option<EstimateEntry>,
     /// Coupling by tip.
-    #[serde(flatten)]
-    pub coupling_by_tip: WithUnit<CouplingByTipKey, Vec<Option<EstimateEntry>>>,
+    pub coupling_by_tip: Vec<Option<EstimateEntry>>,
     /// Gravity; null unless the campaign asks for it.
     pub gravity: Option<GravityEntry>,
     /// Smallest and largest speed in the middle of a window.
-    #[serde(flatten)]
-    pub speed_range: WithUnit<SpeedRangeKey, [f64; 2]>,
+    pub speed_range: NumberEntry<[f64; 2]>,
     /// Length of the windows.
     pub window_s: f64,
     /// Number of windows.
@@ -216,58 +198,40 @@ pub struct BeamRegressionEntry {
 }
 
 impl MethodEntries {
-    /// The entries of all methods; `constant` is torque per command.
-    pub(crate) fn of(
-        names: UnitNames,
-        constant: f64,
-        channels: &Channels,
-        id: &Identified,
-    ) -> Self {
+    /// The entries of all methods.
+    pub(crate) fn of(names: UnitNames, channels: &Channels, id: &Identified) -> Self {
         let third = id.third_harmonic.as_ref();
         let output_error = id.output_error.as_ref();
         let beam = id.beam_regression.as_ref();
         let velocity = id.constant_velocity.as_ref();
         Self {
-            third_harmonic: third.map(|t| ThirdHarmonicEntry::of(names, constant, t, id)),
-            output_error: output_error.map(|o| OutputErrorEntry::of(names, constant, channels, o)),
-            regression: id
-                .regression
-                .as_ref()
-                .map(|r| RegressionEntry::of(names, constant, r, beam)),
-            least_squares: id
-                .least_squares
-                .as_ref()
-                .map(|l| LeastSquaresEntry::of(names, constant, l)),
-            friction_law: id
-                .friction_law
-                .as_ref()
-                .map(|l| FrictionLawEntry::of(names, constant, l)),
+            third_harmonic: third.map(|t| ThirdHarmonicEntry::of(names, t, id)),
+            output_error: output_error.map(|o| OutputErrorEntry::of(names, channels, o)),
+            regression: id.regression.as_ref().map(|r| RegressionEntry::of(names, r, beam)),
+            least_squares: id.least_squares.as_ref().map(|l| LeastSquaresEntry::of(names, l)),
+            friction_law: id.friction_law.as_ref().map(|l| FrictionLawEntry::of(names, l)),
             constant_velocity: velocity.map(|c| {
                 let back_emf = channels.command.back_emf_viscous;
-                ConstantVelocityEntry::of(names, constant, c, back_emf, &id.runs)
+                ConstantVelocityEntry::of(names, c, back_emf, &id.runs)
             }),
         }
     }
 }
 
 impl ThirdHarmonicEntry {
-    fn of(names: UnitNames, constant: f64, t: &ThirdHarmonic, id: &Identified) -> Self {
+    fn of(names: UnitNames, t: &ThirdHarmonic, id: &Identified) -> Self {
         let runs = &id.runs;
         let pairs = t.pairs.iter().zip(&t.used).map(|(p, used)| SinePairEntry {
             omega_rad_s: p.omega_rad_s,
             run: runs[p.run].name.clone(),
             triple_run: runs[p.triple_run].name.clone(),
-            coulomb: WithUnit::under(
-                format!("coulomb_{}", names.command()),
-                EstimateEntry::of(p.coulomb_command),
-            ),
+            coulomb: EstimateEntry::of(p.coulomb_command, names.command_unit()),
             cost: p.cost,
             used: *used,
         });
-        let coulomb = t.coulomb_command.scaled(constant);
         Self {
-            coulomb: WithUnit::torque(names, constant, Some(coulomb)),
-            spread: WithUnit::new(names, t.spread_command),
+            coulomb: EstimateEntry::of(t.coulomb_command, names.command_unit()),
+            spread: NumberEntry::of(t.spread_command, names.command_unit()),
             pairs: pairs.collect(),
             fit: id.third_harmonic_model.as_ref().map(|m| MotorFitEntry::of(names, m)),
         }
@@ -277,9 +241,9 @@ impl ThirdHarmonicEntry {
 impl MotorFitEntry {
     fn of(names: UnitNames, m: &MotorFit) -> Self {
         Self {
-            inertia: WithUnit::new(names, EstimateEntry::of(m.inertia)),
-            viscous: WithUnit::new(names, EstimateEntry::of(m.viscous)),
-            coupling_by_mode: WithUnit::new(names, EstimateEntry::list(&m.coupling)),
+            inertia: EstimateEntry::of(m.inertia, names.inertia_unit()),
+            viscous: EstimateEntry::of(m.viscous, names.viscous_unit()),
+            coupling_by_mode: EstimateEntry::list(&m.coupling, names.coupling_unit()),
             motor: TransferFunctionEntry::of(&m.transfer_function),
             weighted_rms: m.weighted_rms,
         }
@@ -287,12 +251,7 @@ impl MotorFitEntry {
 }
 
 impl RegressionEntry {
-    fn of(
-        names: UnitNames,
-        constant: f64,
-        r: &MotorRegression,
-        beam: Option<&BeamRegression>,
-    ) -> Self {
+    fn of(names: UnitNames, r: &MotorRegression, beam: Option<&BeamRegression>) -> Self {
         let coulomb = Friction {
             coulomb: r.coulomb,
             forward: r.forward,
@@ -300,12 +259,12 @@ impl RegressionEntry {
             offset: r.offset,
             ..Friction::default()
         };
-        let coupling = r.coupling.iter().map(|e| EstimateEntry::or_null(*e));
+        let coupling = r.coupling.iter().map(|e| EstimateEntry::or_null(*e, names.coupling_unit()));
         Self {
-            coulomb: CoulombEntry::of(names, constant, &coulomb),
-            viscous: WithUnit::new(names, EstimateEntry::or_null(r.viscous)),
-            inertia: WithUnit::new(names, EstimateEntry::or_null(r.inertia)),
-            coupling_by_tip: WithUnit::new(names, coupling.collect()),
+            coulomb: CoulombEntry::of(names, &coulomb),
+            viscous: EstimateEntry::or_null(r.viscous, names.viscous_unit()),
+            inertia: EstimateEntry::or_null(r.inertia, names.inertia_unit()),
+            coupling_by_tip: coupling.collect(),
             gravity: r.gravity.as_ref().map(|g| GravityEntry::of(names, g, None)),
             hidden_mode: r.mode.map(HiddenModeEntry::of),
             window_s: r.window_s,
@@ -324,16 +283,17 @@ impl RegressionEntry {
 }
 
 impl LeastSquaresEntry {
-    fn of(names: UnitNames, constant: f64, fit: &LeastSquares) -> Self {
+    fn of(names: UnitNames, fit: &LeastSquares) -> Self {
         let DriveEstimates { friction, inertia, coupling_by_tip, gravity, .. } = &fit.estimates;
-        let coupling = coupling_by_tip.iter().map(|e| EstimateEntry::or_null(*e));
+        let coupling =
+            coupling_by_tip.iter().map(|e| EstimateEntry::or_null(*e, names.coupling_unit()));
         Self {
-            coulomb: CoulombEntry::of(names, constant, friction),
-            viscous: WithUnit::new(names, EstimateEntry::or_null(friction.viscous)),
-            inertia: WithUnit::new(names, EstimateEntry::or_null(*inertia)),
-            coupling_by_tip: WithUnit::new(names, coupling.collect()),
+            coulomb: CoulombEntry::of(names, friction),
+            viscous: EstimateEntry::or_null(friction.viscous, names.viscous_unit()),
+            inertia: EstimateEntry::or_null(*inertia, names.inertia_unit()),
+            coupling_by_tip: coupling.collect(),
             gravity: gravity.as_ref().map(|g| GravityEntry::of(names, g, None)),
-            speed_range: WithUnit::new(names, fit.speed_range),
+            speed_range: NumberEntry::of(fit.speed_range, names.speed_unit()),
             window_s: fit.window_s,
             rows: fit.rows,
             relative_residual: fit.relative_residual,

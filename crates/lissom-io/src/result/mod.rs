@@ -1,9 +1,9 @@
-//! `result.json`: the result of an identification, with stable keys that contain their units; and the files of
+//! `result.json`: the result of an identification, with stable keys; and the files of
 //! `lissom compare`, `equivalent`, `payload` and `validate`.
 //!
 //! Each file is a type that is written and read ([`ResultFile`], [`EquivalentFile`], [`PayloadFile`],
 //! [`ValidationFile`], [`ComparedFile`]); the schemas in `docs/` are generated from these types. An estimate is
-//! `{value, std, ci95}`, or `null` if it is refused; a finding then gives the reason.
+//! `{value, std, ci95, unit}`, or `null` if it is refused; a finding then gives the reason.
 
 mod arm_entry;
 mod arm_numbers;
@@ -13,7 +13,6 @@ mod compared_file;
 mod constant_velocity_entry;
 mod equivalent_file;
 mod estimate_entry;
-mod estimate_keys;
 mod finding_entry;
 pub mod finding_keys;
 mod friction_entry;
@@ -31,13 +30,13 @@ pub(crate) mod result_error;
 mod result_file;
 mod separability_entry;
 pub mod thresholds_file;
-mod unit_keys;
 mod unit_names;
 mod validation_file;
 
 pub use arm_entry::{ArmEntry, ArmGravityEntry, ArmTipEntry, OscillatorEntry};
 pub use channel_names::{
-    ArmSourceName, AxisName, DirectionName, FalloffName, MethodName, TipQuantityName,
+    ArmSourceName, AxisName, CommandUnitName, DirectionName, FalloffName, MethodName,
+    TipQuantityName,
 };
 pub use compare_results::{CLEAR_STANDARD_ERRORS, ComparisonError};
 pub use compared_file::{
@@ -52,8 +51,7 @@ pub use equivalent_file::{
     StdSourceName, StrainlessEntry,
 };
 pub(crate) use estimate_entry::finite;
-pub use estimate_entry::{BeamModeEntry, EstimateEntry};
-pub use estimate_keys::{Estimated, Refusable};
+pub use estimate_entry::{BeamModeEntry, EstimateEntry, NumberEntry};
 pub use finding_entry::{FindingEntry, SeverityName};
 pub use friction_entry::{CoulombEntry, CurvePointEntry, FrictionEntry, LawEntry};
 pub use friction_law_entry::{

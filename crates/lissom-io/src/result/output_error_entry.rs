@@ -6,9 +6,7 @@ use lissom_core::replay::Parameter;
 use serde::{Deserialize, Serialize};
 
 use super::estimate_entry::{BeamModeEntry, EstimateEntry};
-use super::estimate_keys::Refusable;
 use super::friction_entry::CoulombEntry;
-use super::unit_keys::{CouplingKey, InertiaKey, ViscousKey, WithUnit};
 use super::unit_names::UnitNames;
 
 /// Estimates of the output-error method.
@@ -19,14 +17,11 @@ pub struct OutputErrorEntry {
     #[serde(flatten)]
     pub coulomb: CoulombEntry,
     /// Viscous friction.
-    #[serde(flatten)]
-    pub viscous: Refusable<ViscousKey>,
+    pub viscous: Option<EstimateEntry>,
     /// Inertia or mass.
-    #[serde(flatten)]
-    pub inertia: Refusable<InertiaKey>,
+    pub inertia: Option<EstimateEntry>,
     /// Coupling between motor and beam.
-    #[serde(flatten)]
-    pub coupling: Refusable<CouplingKey>,
+    pub coupling: Option<EstimateEntry>,
     /// Modes with the motor clamped.
     pub modes: Vec<BeamModeEntry>,
     /// Time by which the command acts later than it is logged; null if the residual shows no lag.
@@ -97,23 +92,18 @@ pub struct ExtensionEntry {
 }
 
 impl OutputErrorEntry {
-    /// The entry of the output-error method; `constant` is torque per command.
-    pub(crate) fn of(
-        names: UnitNames,
-        constant: f64,
-        channels: &Channels,
-        oe: &OutputError,
-    ) -> Self {
+    /// The entry of the output-error method.
+    pub(crate) fn of(names: UnitNames, channels: &Channels, oe: &OutputError) -> Self {
         let friction = oe.friction(channels.command.back_emf_viscous);
         let coupling = oe.estimates(channels).coupling;
-        let lag = |tip| EstimateEntry::or_null(oe.estimate(Parameter::TipLag(tip)));
+        let lag = |tip| EstimateEntry::or_null(oe.estimate(Parameter::TipLag(tip)), "s");
         Self {
-            coulomb: CoulombEntry::of(names, constant, &friction),
-            viscous: WithUnit::new(names, EstimateEntry::or_null(friction.viscous)),
-            inertia: WithUnit::new(names, EstimateEntry::or_null(oe.inertia())),
-            coupling: WithUnit::new(names, EstimateEntry::or_null(coupling)),
+            coulomb: CoulombEntry::of(names, &friction),
+            viscous: EstimateEntry::or_null(friction.viscous, names.viscous_unit()),
+            inertia: EstimateEntry::or_null(oe.inertia(), names.inertia_unit()),
+            coupling: EstimateEntry::or_null(coupling, names.coupling_unit()),
             modes: BeamModeEntry::list(&oe.mode_estimates()),
-            command_lag_s: EstimateEntry::or_null(oe.estimate(Parameter::CommandLag)),
+            command_lag_s: EstimateEntry::or_null(oe.estimate(Parameter::CommandLag), "s"),
             tip_lags_s: (0..channels.tips.len()).map(lag).collect(),
             whole_runs: oe.whole_runs,
             evaluations: oe.evaluations,

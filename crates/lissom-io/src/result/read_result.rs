@@ -5,9 +5,8 @@ use std::path::Path;
 use serde::Deserialize;
 use serde_json::Value;
 
-use super::channel_names::{AxisName, MethodName};
+use super::channel_names::{AxisName, CommandUnitName, MethodName};
 use super::estimate_entry::EstimateEntry;
-use super::estimate_keys::Refusable;
 use super::finding_entry::{FindingEntry, SeverityName};
 use super::finding_keys::{COULOMB, COUPLING, GRAVITY, INERTIA, MODES, OFFSET, VISCOUS};
 use super::friction_entry::FrictionEntry;
@@ -15,7 +14,6 @@ use super::friction_term_entries::LawTermName;
 use super::gravity_entry::GravityEntry;
 use super::result_error::ResultError;
 use super::result_file::{BeamEntry, DriveEntry, ResultFile};
-use super::unit_keys::{Quantity, WithUnit};
 use super::unit_names::UnitNames;
 use crate::io_error::Error;
 use crate::read_text::read_text;
@@ -40,7 +38,7 @@ pub struct ParameterList {
 /// A parameter of a result.
 #[derive(Debug, Clone, PartialEq)]
 pub struct ListedParameter {
-    /// Its key in `result.json`, with dots and the suffix of its unit.
+    /// Its key in `result.json`, with dots.
     pub key: String,
     /// Its name in words.
     pub name: String,
@@ -58,6 +56,7 @@ pub struct ListedParameter {
 struct ParameterPart {
     axis: AxisName,
     torque_per_command: Option<f64>,
+    command_unit: CommandUnitName,
     #[serde(default)]
     from: Option<MethodName>,
     friction: FrictionEntry,
@@ -92,6 +91,7 @@ impl ParameterList {
             "lissom",
             "axis",
             "torque_per_command",
+            "command_unit",
             "friction",
             "drive",
             "beam",
@@ -106,19 +106,15 @@ impl ParameterList {
             let key = error.path().to_string();
             ResultError::Value { file: file(), key, source: error.into_inner() }
         })?;
-        part.list().ok_or_else(|| ResultError::Key {
-            file: file(),
-            key: "friction.coulomb_…".to_owned(),
-            expected: "given with the units of an axis",
-        })
+        Ok(part.list())
     }
 
-    /// The parameters of a result. `None` if its keys do not have the units of an axis, which results from
-    /// [`ResultFile::of`] always have.
-    pub fn of(result: &ResultFile) -> Option<Self> {
+    /// The parameters of a result.
+    pub fn of(result: &ResultFile) -> Self {
         let part = ParameterPart {
             axis: result.axis,
             torque_per_command: result.torque_per_command,
+            command_unit: result.command_unit,
             from: result.from,
             friction: result.friction.clone(),
             drive: result.drive.clone(),
@@ -131,21 +127,16 @@ impl ParameterList {
 }
 
 impl ParameterPart {
-    fn list(&self) -> Option<ParameterList> {
-        let names = self.names()?;
-        Some(ParameterList {
+    fn list(&self) -> ParameterList {
+        let names = self.command_unit.names(self.axis, self.torque_per_command);
+        ParameterList {
             names,
             from: self.from,
             torque_per_command: self.torque_per_command,
             friction_terms: self.friction_terms(),
             modes: self.beam.modes.len(),
             parameters: Listing::of(names, self),
-        })
-    }
-
-    /// The units, by the keys of Coulomb friction.
-    fn names(&self) -> Option<UnitNames> {
-        self.friction.names(self.axis)
+        }
     }
 
     /// Terms of the friction law of the result.
@@ -153,9 +144,9 @@ impl ParameterPart {
         let Some(law) = &self.friction.law else { return Vec::new() };
         let t = &law.terms;
         let mut terms = Vec::new();
-        terms.extend(law.viscous_forward.any().map(|_| LawTermName::ViscousByDirection));
+        terms.extend(law.viscous_forward.as_ref().map(|_| LawTermName::ViscousByDirection));
         terms.extend(t.near_rest.as_ref().map(|_| LawTermName::NearRest));
-        terms.extend(t.root.any().map(|_| LawTermName::Root));
+        terms.extend(t.root.as_ref().map(|_| LawTermName::Root));
         terms.extend(t.with_load.as_ref().map(|_| LawTermName::WithLoad));
         terms.extend(t.ripples.iter().map(|_| LawTermName::Ripple));
         terms.extend(t.torque_ripples.iter().map(|_| LawTermName::TorqueRipple));
@@ -182,7 +173,7 @@ impl<'a> Listing<'a> {
     /// Adds a parameter; findings with one of the keys `affected` affect it.
     fn add(
         &mut self,
-        (key, name, unit): (String, &str, &str),
+        (key, name, unit): (&str, &str, &str),
         estimate: Option<&EstimateEntry>,
         affected: &[&str],
     ) {
@@ -200,7 +191,7 @@ impl<'a> Listing<'a> {
             }
         }
         self.parameters.push(ListedParameter {
-            key,
+            key: key.to_owned(),
             name: name.to_owned(),
             unit: unit.to_owned(),
             estimate: estimate.cloned(),
@@ -208,100 +199,93 @@ impl<'a> Listing<'a> {
         });
     }
 
-    /// Adds a parameter of a table of the result, if the table has its key.
-    fn keyed<Q: Quantity>(
-        &mut self,
-        (table, name, unit): (&str, &str, &str),
-        value: &Refusable<Q>,
-        affected: &[&str],
-    ) {
-        if let Some((key, estimate)) = value.keyed(self.names) {
-            self.add((format!("{table}.{key}"), name, unit), estimate.as_ref(), affected);
-        }
-    }
-
-    /// The same for a value that is never refused.
-    fn estimated<Q: Quantity>(
-        &mut self,
-        (table, name, unit): (&str, &str, &str),
-        value: &WithUnit<Q, EstimateEntry>,
-        affected: &[&str],
-    ) {
-        if let Some((key, estimate)) = value.keyed(self.names) {
-            self.add((format!("{table}.{key}"), name, unit), Some(estimate), affected);
-        }
-    }
-
     fn friction(&mut self) {
         let (f, names) = (&self.part.friction, self.names);
         let (torque, viscous) = (names.torque_unit(), names.viscous_unit());
         let c = &f.coulomb;
-        if names.torque_known
-            && let Some((key, estimate)) = c.coulomb.of_command(names)
-        {
-            let id = (format!("friction.{key}"), "Coulomb friction", names.command_unit());
-            self.add(id, estimate.as_ref(), &[COULOMB]);
-        }
-        self.keyed(("friction", "Coulomb friction", torque), &c.coulomb, &[COULOMB]);
+        self.add((COULOMB, "Coulomb friction", torque), c.coulomb.as_ref(), &[COULOMB]);
         // One direction only: friction and a constant load are one number.
-        let alone = c.coulomb.get(names).is_none_or(Option::is_none);
+        let alone = c.coulomb.is_none();
         let [forward, backward] = if alone {
             ["friction with the load forward", "friction with the load backward"]
         } else {
             ["Coulomb friction forward", "Coulomb friction backward"]
         };
-        self.keyed(("friction", forward, torque), &c.forward, &[COULOMB, OFFSET]);
-        self.keyed(("friction", backward, torque), &c.backward, &[COULOMB, OFFSET]);
-        self.keyed(("friction", "Coulomb friction offset", torque), &c.offset, &[OFFSET]);
-        self.keyed(("friction", "viscous friction", &viscous), &f.viscous, &[VISCOUS]);
+        let both = &[COULOMB, OFFSET];
+        self.add(("friction.forward", forward, torque), c.forward.as_ref(), both);
+        self.add(("friction.backward", backward, torque), c.backward.as_ref(), both);
+        self.add((OFFSET, "Coulomb friction offset", torque), c.offset.as_ref(), &[OFFSET]);
+        self.add((VISCOUS, "viscous friction", &viscous), f.viscous.as_ref(), &[VISCOUS]);
     }
 
     /// The law of friction, if it has terms beyond the line.
     fn friction_law(&mut self) {
         let (Some(law), names) = (&self.part.friction.law, self.names) else { return };
         let (torque, angle, viscous) = (names.torque_unit(), names.angle(), names.viscous_unit());
-        let table = "friction.law";
-        self.keyed(
-            (table, "Coulomb friction of the law", torque),
-            &law.coulomb.coulomb,
-            &[COULOMB],
-        );
-        self.keyed((table, "viscous friction of the law", &viscous), &law.viscous, &[VISCOUS]);
-        let name = "viscous friction forward";
-        self.estimated((table, name, &viscous), &law.viscous_forward, &[VISCOUS]);
-        let name = "viscous friction backward";
-        self.estimated((table, name, &viscous), &law.viscous_backward, &[VISCOUS]);
+        let (speed, root) = (names.speed_unit(), names.root_unit());
+        let at = |key: &str| format!("friction.law.{key}");
+        let coulomb = law.coulomb.coulomb.as_ref();
+        self.add((&at("coulomb"), "Coulomb friction of the law", torque), coulomb, &[COULOMB]);
+        let id = (&*at("viscous"), "viscous friction of the law", &*viscous);
+        self.add(id, law.viscous.as_ref(), &[VISCOUS]);
         let terms = &law.terms;
-        if let Some(near) = &terms.near_rest {
-            let table = "friction.law.near_rest";
-            // None where friction does not rise towards rest: that refuses nothing.
-            if near.static_friction.get(names).is_some_and(Option::is_some) {
-                self.keyed((table, "static friction", torque), &near.static_friction, &[COULOMB]);
+        let near = terms.near_rest.as_ref();
+        // What is not there refuses nothing.
+        let one_by_one: [(&str, &str, &str, Option<&EstimateEntry>, &[&str]); 7] = [
+            (
+                "viscous_forward",
+                "viscous friction forward",
+                &viscous,
+                law.viscous_forward.as_ref(),
+                &[VISCOUS],
+            ),
+            (
+                "viscous_backward",
+                "viscous friction backward",
+                &viscous,
+                law.viscous_backward.as_ref(),
+                &[VISCOUS],
+            ),
+            (
+                "near_rest.static_friction",
+                "static friction",
+                torque,
+                near.and_then(|n| n.static_friction.as_ref()),
+                &[COULOMB],
+            ),
+            (
+                "near_rest.amplitude",
+                "friction near rest",
+                torque,
+                near.and_then(|n| n.amplitude.as_ref()),
+                &[COULOMB],
+            ),
+            (
+                "near_rest.speed",
+                "friction near rest speed",
+                &speed,
+                near.map(|n| &n.speed),
+                &[COULOMB],
+            ),
+            ("root", "friction per root of speed", &root, terms.root.as_ref(), &[COULOMB, VISCOUS]),
+            ("with_load", "friction per load", "1", terms.with_load.as_ref(), &[COULOMB]),
+        ];
+        for (key, name, unit, estimate, affected) in one_by_one {
+            if estimate.is_some() {
+                self.add((&at(key), name, unit), estimate, affected);
             }
-            self.keyed((table, "friction near rest", torque), &near.amplitude, &[COULOMB]);
-            let unit = format!("{angle}/s");
-            self.estimated((table, "friction near rest speed", &unit), &near.speed, &[COULOMB]);
-        }
-        let unit = format!("{torque}/√({angle}/s)");
-        self.estimated(
-            (table, "friction per root of speed", &unit),
-            &terms.root,
-            &[COULOMB, VISCOUS],
-        );
-        if let Some(with_load) = &terms.with_load {
-            let id = ("friction.law.with_load".to_owned(), "friction per load", "1");
-            self.add(id, Some(with_load), &[COULOMB]);
         }
         for (list, what, ripples) in [
             ("ripples", "ripple", &terms.ripples),
             ("torque_ripples", "torque ripple", &terms.torque_ripples),
         ] {
             for (k, ripple) in ripples.iter().enumerate() {
-                let table = format!("friction.law.{list}[{k}]");
+                let key = |of: &str| at(&format!("{list}[{k}].{of}"));
                 let name = format!("{what} {}", k + 1);
-                self.keyed((&table, &name, torque), &ripple.amplitude, &[COULOMB]);
+                let amplitude = ripple.amplitude.as_ref();
+                self.add((&key("amplitude"), &name, torque), amplitude, &[COULOMB]);
                 let name = format!("{name} period");
-                self.estimated((&table, &name, angle), &ripple.period, &[COULOMB]);
+                self.add((&key("period"), &name, angle), Some(&ripple.period), &[COULOMB]);
             }
         }
     }
@@ -309,35 +293,33 @@ impl<'a> Listing<'a> {
     fn drive_and_beam(&mut self) {
         let (part, names) = (self.part, self.names);
         let (torque, inertia) = (names.torque_unit(), names.inertia_unit());
-        let name = names.inertia_name();
-        self.keyed(("drive", name, &inertia), &part.drive.inertia, &[INERTIA]);
+        let id = (INERTIA, names.inertia_name(), &*inertia);
+        self.add(id, part.drive.inertia.as_ref(), &[INERTIA]);
         if let Some(gravity) = &part.gravity {
-            let name = "gravity m·g·l";
-            self.estimated(("gravity", name, torque), &gravity.amplitude, &[GRAVITY]);
-            let id = (PHASE_KEY.to_owned(), "gravity m·g·l phase", "rad");
+            let id = ("gravity.amplitude", "gravity m·g·l", torque);
+            self.add(id, Some(&gravity.amplitude), &[GRAVITY]);
+            let id = (PHASE_KEY, "gravity m·g·l phase", "rad");
             self.add(id, Some(&gravity.phase_rad), &[GRAVITY]);
-            let unit = format!("N·m/{}", names.command_unit());
-            let name = "torque constant from m·g·l";
             // Without a known m·g·l it was not asked for.
-            if gravity.torque_constant.get(names).is_some_and(Option::is_some) {
-                self.keyed(("gravity", name, &unit), &gravity.torque_constant, &[GRAVITY]);
+            if let Some(constant) = &gravity.torque_constant {
+                let unit = names.torque_constant_unit();
+                let id = ("gravity.torque_constant", "torque constant from m·g·l", &*unit);
+                self.add(id, Some(constant), &[GRAVITY]);
             }
         }
-        let coupling = names.coupling_unit();
-        let name = "coupling to the beam";
         // A rigid axis has none that could be refused.
-        let tips = part.beam.coupling_by_tip.get(names).is_some_and(|tips| !tips.is_empty());
-        if tips || part.beam.coupling.get(names).is_some_and(Option::is_some) {
-            self.keyed(("beam", name, &coupling), &part.beam.coupling, &[COUPLING]);
+        if !part.beam.coupling_by_tip.is_empty() || part.beam.coupling.is_some() {
+            let unit = names.coupling_unit();
+            let id = (COUPLING, "coupling to the beam", &*unit);
+            self.add(id, part.beam.coupling.as_ref(), &[COUPLING]);
         }
         for (k, mode) in part.beam.modes.iter().enumerate() {
             let key = |name: &str| format!("beam.modes[{k}].{name}");
             let name = format!("mode {} frequency", k + 1);
-            let id = (key("natural_frequency_rad_s"), name.as_str(), "rad/s");
+            let id = (&*key("natural_frequency_rad_s"), &*name, "rad/s");
             self.add(id, Some(&mode.natural_frequency_rad_s), &[MODES]);
             let name = format!("mode {} damping ratio", k + 1);
-            let id = (key("damping_ratio"), name.as_str(), "1");
-            self.add(id, mode.damping_ratio.as_ref(), &[MODES]);
+            self.add((&key("damping_ratio"), &name, "1"), mode.damping_ratio.as_ref(), &[MODES]);
         }
     }
 }

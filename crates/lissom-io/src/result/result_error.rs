@@ -46,7 +46,7 @@ pub enum ResultError {
         /// The key, with dots.
         key: String,
         /// What it must be.
-        expected: &'static str,
+        expected: String,
     },
     /// A value of a wrong type.
     #[error("{file}: `{key}` cannot be read: {source}")]

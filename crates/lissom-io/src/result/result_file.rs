@@ -9,10 +9,9 @@ use serde::{Deserialize, Serialize};
 use serde_json::Value;
 
 use super::arm_entry::ArmEntry;
-use super::channel_names::{AxisName, MethodName};
+use super::channel_names::{AxisName, CommandUnitName, MethodName};
 use super::equivalent_file::EquivalentEntry;
-use super::estimate_entry::{BeamModeEntry, EstimateEntry};
-use super::estimate_keys::Refusable;
+use super::estimate_entry::{BeamModeEntry, EstimateEntry, NumberEntry};
 use super::finding_entry::FindingEntry;
 use super::friction_entry::FrictionEntry;
 use super::geometry_entry::GeometryEntry;
@@ -21,15 +20,12 @@ use super::linear_model_entries::{FrequencyResponseEntry, LinearModelEntries};
 use super::method_entries::MethodEntries;
 use super::result_error::ResultError;
 use super::separability_entry::SeparabilityEntry;
-use super::unit_keys::{CouplingByTipKey, CouplingKey, InertiaKey, MotionKey, WithUnit};
 use super::unit_names::UnitNames;
 use crate::io_error::Error;
 use crate::read_text::read_text;
 
-/// SI units and rad/s. The suffix of a key is its unit: a (A), v (V), command (the unit of the command, if it is
-/// unknown), nm (N*m), n (N). Keys in N*m or N exist if the torque constant is known; otherwise estimates are per unit
-/// of command. Linear axes have m, N and kg instead of rad, N*m and kg*m^2. An estimate is null if a finding refuses
-/// it.
+/// SI units and rad/s. An estimate has its unit next to it, and is null if a finding refuses it. Torques are in N·m (linear
+/// axes: N, with m and kg) if the torque constant is known, otherwise in the unit of the command.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct ResultFile {
@@ -39,6 +35,8 @@ pub struct ResultFile {
     pub axis: AxisName,
     /// Torque constant used, N*m or N per unit of command; null if it is unknown.
     pub torque_per_command: Option<f64>,
+    /// Unit of the command.
+    pub command_unit: CommandUnitName,
     /// The method that gave friction, inertia and coupling, all of them together; null if none has a solution.
     pub from: Option<MethodName>,
     /// Friction from this method.
@@ -77,8 +75,7 @@ pub struct ResultFile {
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct DriveEntry {
     /// Inertia, or mass of a linear axis.
-    #[serde(flatten)]
-    pub inertia: Refusable<InertiaKey>,
+    pub inertia: Option<EstimateEntry>,
 }
 
 /// The beam.
@@ -88,11 +85,9 @@ pub struct BeamEntry {
     /// Modes with the motor clamped (poles of tip angle per motor angle), ascending.
     pub modes: Vec<BeamModeEntry>,
     /// Torque per angle between motor and beam.
-    #[serde(flatten)]
-    pub coupling: Refusable<CouplingKey>,
+    pub coupling: Option<EstimateEntry>,
     /// Coupling for each tip.
-    #[serde(flatten)]
-    pub coupling_by_tip: WithUnit<CouplingByTipKey, Vec<Option<EstimateEntry>>>,
+    pub coupling_by_tip: Vec<Option<EstimateEntry>>,
 }
 
 /// A run of the campaign.
@@ -144,8 +139,7 @@ pub struct SinusoidEntry {
     /// Share of the cycle in which the joint sticks.
     pub stuck_share: Option<f64>,
     /// Amplitude of the motor's motion, that of its first harmonic.
-    #[serde(flatten)]
-    pub amplitude: WithUnit<MotionKey, f64>,
+    pub amplitude: NumberEntry,
     /// Harmonics of the command.
     #[serde(default)]
     pub command_harmonics: HarmonicsEntry,
@@ -184,46 +178,41 @@ impl ResultFile {
         let file = || file.to_owned();
         let root: Value = serde_json::from_str(text.trim_start_matches('\u{feff}'))
             .map_err(|source| ResultError::Json { file: file(), source })?;
-        for key in ["lissom", "axis", "friction", "drive", "beam", "runs", "findings"] {
+        for key in
+            ["lissom", "axis", "command_unit", "friction", "drive", "beam", "runs", "findings"]
+        {
             if root.get(key).is_none() {
                 return Err(ResultError::NoResult { file: file(), key });
             }
         }
-        let result: Self = serde_path_to_error::deserialize(&root).map_err(|error| {
+        serde_path_to_error::deserialize(&root).map_err(|error| {
             let key = error.path().to_string();
             ResultError::Value { file: file(), key, source: error.into_inner() }
-        })?;
-        if result.names().is_none() {
-            let (key, expected) =
-                ("friction.coulomb_…".to_owned(), "given with the units of an axis");
-            return Err(ResultError::Key { file: file(), key, expected });
-        }
-        Ok(result)
+        })
     }
 
-    /// Its units; `None` if its keys do not have the units of an axis, which results from [`Self::of`] always have.
-    pub fn names(&self) -> Option<UnitNames> {
-        self.friction.names(self.axis)
+    /// Its units.
+    pub fn names(&self) -> UnitNames {
+        self.command_unit.names(self.axis, self.torque_per_command)
     }
 
     /// The content for an identification, with the comparison with an arm.toml if there is one.
     pub fn of(channels: &Channels, id: &Identified, described: Option<&GeometryCheck>) -> Self {
         let names = UnitNames::new(channels);
-        let constant = id.torque_per_command.unwrap_or(1.0);
         let separability = id.separability.as_ref();
-        let inertia = EstimateEntry::or_null(id.inertia);
         Self {
             lissom: env!("CARGO_PKG_VERSION").to_owned(),
             axis: AxisName::of(channels.axis),
             torque_per_command: id.torque_per_command,
+            command_unit: CommandUnitName::of(channels.command.quantity),
             from: id.method.and_then(MethodName::of),
-            friction: FrictionEntry::of(names, constant, id),
-            drive: DriveEntry { inertia: WithUnit::new(names, inertia) },
+            friction: FrictionEntry::of(names, id),
+            drive: DriveEntry { inertia: EstimateEntry::or_null(id.inertia, names.inertia_unit()) },
             gravity: id.gravity.as_ref().map(|g| GravityEntry::of(names, g, id.torque_constant)),
             beam: BeamEntry::of(names, id),
             verdict: separability.map(|s| SeparabilityEntry::of(channels.axis, names, s)),
             arm: id.arm.as_ref().map(|found| ArmEntry::of(channels, names, found)),
-            methods: MethodEntries::of(names, constant, channels, id),
+            methods: MethodEntries::of(names, channels, id),
             frequency_response: FrequencyResponseEntry::of(channels, id),
             models: LinearModelEntries::of(channels, &id.models),
             geometry: described.map(GeometryEntry::of),
@@ -236,11 +225,15 @@ impl ResultFile {
 
 impl BeamEntry {
     fn of(names: UnitNames, id: &Identified) -> Self {
-        let by_tip = id.beam.coupling_by_tip.iter().map(|e| EstimateEntry::or_null(*e));
+        let by_tip = id
+            .beam
+            .coupling_by_tip
+            .iter()
+            .map(|e| EstimateEntry::or_null(*e, names.coupling_unit()));
         Self {
             modes: BeamModeEntry::list(&id.beam.modes),
-            coupling: WithUnit::new(names, EstimateEntry::or_null(id.beam.coupling)),
-            coupling_by_tip: WithUnit::new(names, by_tip.collect()),
+            coupling: EstimateEntry::or_null(id.beam.coupling, names.coupling_unit()),
+            coupling_by_tip: by_tip.collect(),
         }
     }
 }
@@ -276,7 +269,7 @@ impl RunEntry {
                     periods: s.steady.periods,
                     dropped_periods: s.steady.dropped,
                     stuck_share: r.stuck_share,
-                    amplitude: WithUnit::new(names, first_harmonic(&s.motor)),
+                    amplitude: NumberEntry::of(first_harmonic(&s.motor), names.angle()),
                     command_harmonics: HarmonicsEntry::of(&s.command),
                     motor_harmonics: HarmonicsEntry::of(&s.motor),
                 }),

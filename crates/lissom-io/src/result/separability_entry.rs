@@ -7,8 +7,8 @@ use lissom_core::record::Axis;
 use serde::{Deserialize, Serialize};
 
 use super::channel_names::ArmSourceName;
-use super::estimate_entry::finite;
-use super::unit_keys::{CoulombKey, MotionKey, OffsetKey, Quantity as _, WithUnit};
+use super::estimate_entry::{NumberEntry, finite};
+use super::finding_keys::{COULOMB, COUPLING, INERTIA, OFFSET, VISCOUS};
 use super::unit_names::UnitNames;
 
 /// Which parameters the logs identify. Standard errors are relative to the value of the parameter, for the offset to
@@ -128,8 +128,7 @@ pub struct RunToAddEntry {
     /// Frequency of a sine, highest line of a multisine, end of a chirp.
     pub to_rad_s: f64,
     /// Amplitude of the motor's motion.
-    #[serde(flatten)]
-    pub amplitude: WithUnit<MotionKey, f64>,
+    pub amplitude: NumberEntry,
     /// Logged time.
     pub record_s: f64,
     /// The parameter whose standard error it reduces most.
@@ -165,7 +164,7 @@ impl SeparabilityEntry {
         Self {
             words: found.words(axis),
             source: ArmSourceName::of(found.source),
-            correlation: CorrelationEntry::of(names, found),
+            correlation: CorrelationEntry::of(found),
             condition: finite(found.condition),
             parameters: known.collect(),
             directions: found.directions.iter().map(PrincipalDirectionEntry::of).collect(),
@@ -177,18 +176,15 @@ impl SeparabilityEntry {
 }
 
 impl CorrelationEntry {
-    fn of(names: UnitNames, found: &Separability) -> Self {
-        let key = |parameter: ArmParameter| {
-            let friction = |key: Option<String>| format!("friction.{}", key.unwrap_or_default());
-            match parameter {
-                ArmParameter::Coulomb => friction(CoulombKey::keys(names).pop()),
-                ArmParameter::Viscous => friction(Some(names.viscous_key("viscous"))),
-                ArmParameter::Offset => friction(OffsetKey::keys(names).pop()),
-                ArmParameter::Inertia => format!("drive.{}", names.inertia_key()),
-                ArmParameter::Coupling => format!("beam.{}", names.coupling_key("coupling")),
-                ArmParameter::Frequency(k) => format!("beam.modes[{k}].natural_frequency_rad_s"),
-                ArmParameter::Damping(k) => format!("beam.modes[{k}].damping_ratio"),
-            }
+    fn of(found: &Separability) -> Self {
+        let key = |parameter: ArmParameter| match parameter {
+            ArmParameter::Coulomb => COULOMB.to_owned(),
+            ArmParameter::Viscous => VISCOUS.to_owned(),
+            ArmParameter::Offset => OFFSET.to_owned(),
+            ArmParameter::Inertia => INERTIA.to_owned(),
+            ArmParameter::Coupling => COUPLING.to_owned(),
+            ArmParameter::Frequency(k) => format!("beam.modes[{k}].natural_frequency_rad_s"),
+            ArmParameter::Damping(k) => format!("beam.modes[{k}].damping_ratio"),
         };
         let rows = found.correlation.row_iter();
         Self {
@@ -241,7 +237,7 @@ impl RunToAddEntry {
             kind,
             from_rad_s,
             to_rad_s,
-            amplitude: WithUnit::new(names, run.amplitude_rad),
+            amplitude: NumberEntry::of(run.amplitude_rad, names.angle()),
             record_s: run.record_s,
             parameter: run.parameter.name(),
             relative_std_now: finite(run.std_now),

@@ -1,8 +1,8 @@
-//! Names of keys and units of a campaign.
+//! Names of the units of a campaign, and of what they measure.
 
 use lissom_core::record::{Axis, Channels, CommandQuantity};
 
-/// Units of a campaign, with the suffixes of keys and the names of units.
+/// Units of a campaign, in words.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct UnitNames {
     /// Whether torque (or force) is known; otherwise estimates are per unit of command.
@@ -14,26 +14,6 @@ pub struct UnitNames {
 }
 
 impl UnitNames {
-    /// Every combination of units that a campaign may have.
-    pub(crate) const ALL: [Self; 12] = {
-        let [current, voltage, arbitrary] =
-            [CommandQuantity::Current, CommandQuantity::Voltage, CommandQuantity::Arbitrary];
-        [
-            Self { torque_known: false, axis: Axis::Rotary, command: current },
-            Self { torque_known: false, axis: Axis::Rotary, command: voltage },
-            Self { torque_known: false, axis: Axis::Rotary, command: arbitrary },
-            Self { torque_known: false, axis: Axis::Linear, command: current },
-            Self { torque_known: false, axis: Axis::Linear, command: voltage },
-            Self { torque_known: false, axis: Axis::Linear, command: arbitrary },
-            Self { torque_known: true, axis: Axis::Rotary, command: current },
-            Self { torque_known: true, axis: Axis::Rotary, command: voltage },
-            Self { torque_known: true, axis: Axis::Rotary, command: arbitrary },
-            Self { torque_known: true, axis: Axis::Linear, command: current },
-            Self { torque_known: true, axis: Axis::Linear, command: voltage },
-            Self { torque_known: true, axis: Axis::Linear, command: arbitrary },
-        ]
-    };
-
     /// The units of these channels.
     pub fn new(channels: &Channels) -> Self {
         Self {
@@ -43,51 +23,26 @@ impl UnitNames {
         }
     }
 
-    /// Suffix of the command's unit: `a`, `v` or `command`.
-    pub fn command(&self) -> &'static str {
-        match self.command {
-            CommandQuantity::Current => "a",
-            CommandQuantity::Voltage => "v",
-            CommandQuantity::PositionError | CommandQuantity::Arbitrary => "command",
-        }
-    }
-    /// Suffix of a torque or force; that of the command if the torque constant is unknown.
-    pub fn torque(&self) -> &'static str {
-        match (self.torque_known, self.axis) {
-            (false, _) => self.command(),
-            (true, Axis::Rotary) => "nm",
-            (true, Axis::Linear) => "n",
-        }
-    }
-    /// Suffix of an angle or position.
+    /// Unit of an angle or position.
     pub fn angle(&self) -> &'static str {
         match self.axis {
             Axis::Rotary => "rad",
             Axis::Linear => "m",
         }
     }
-    /// Key of the inertia or mass.
-    pub fn inertia_key(&self) -> String {
-        match (self.torque_known, self.axis) {
-            (true, Axis::Rotary) => "inertia_kg_m2".to_owned(),
-            (true, Axis::Linear) => "mass_kg".to_owned(),
-            (false, _) => format!("inertia_{}_s2_per_{}", self.command(), self.angle()),
-        }
+    /// Unit of a speed.
+    pub fn speed_unit(&self) -> String {
+        format!("{}/s", self.angle())
     }
-    /// Key of a viscous coefficient, e.g. `viscous_nm_s_per_rad`.
-    pub fn viscous_key(&self, name: &str) -> String {
-        format!("{name}_{}_s_per_{}", self.torque(), self.angle())
+    /// Unit of friction that grows with the square root of the speed.
+    pub fn root_unit(&self) -> String {
+        format!("{}/√({}/s)", self.torque_unit(), self.angle())
     }
-    /// Key of a coupling, e.g. `coupling_nm_per_rad`.
-    pub fn coupling_key(&self, name: &str) -> String {
-        format!("{name}_{}_per_{}", self.torque(), self.angle())
+    /// Unit of a torque constant.
+    pub fn torque_constant_unit(&self) -> String {
+        let torque = Self { torque_known: true, ..*self };
+        format!("{}/{}", torque.torque_unit(), self.command_unit())
     }
-
-    /// Key of friction that grows with the square root of the speed.
-    pub fn root_key(&self, name: &str) -> String {
-        format!("{name}_{}_per_root_{}_per_s", self.torque(), self.angle())
-    }
-
     /// Unit of the command in words.
     pub fn command_unit(&self) -> &'static str {
         match self.command {

@@ -9,8 +9,8 @@ use serde::{Deserialize, Serialize};
 
 use super::arm_entry::ArmEntry;
 use super::channel_names::{AxisName, DirectionName};
+use super::estimate_entry::NumberEntry;
 use super::finding_entry::FindingEntry;
-use super::unit_keys::{LoggedRmsKey, WithUnit};
 use super::unit_names::UnitNames;
 
 /// SI units. The suffix of a key is its unit, as in result.schema.json. Shares are from 0 to 1.
@@ -50,8 +50,7 @@ pub struct TorqueEntry {
     /// The same while the motor moves backward.
     pub relative_error_backward: Option<f64>,
     /// Root mean square of the logged torque.
-    #[serde(flatten)]
-    pub logged_rms: WithUnit<LoggedRmsKey, f64>,
+    pub logged_rms: NumberEntry,
     /// Length of the sin^4 window with which both torques are averaged.
     pub window_s: f64,
     /// Frequency at which the window passes half of the power.
@@ -298,7 +297,7 @@ impl TorqueEntry {
             relative_error_expected: t.expected_error,
             relative_error_forward: t.by_direction[0],
             relative_error_backward: t.by_direction[1],
-            logged_rms: WithUnit::new(names, t.logged_nm),
+            logged_rms: NumberEntry::of(t.logged_nm, names.torque_unit()),
             window_s: t.window_s,
             half_power_hz: t.half_power_hz,
             rest_share: t.rest_share,

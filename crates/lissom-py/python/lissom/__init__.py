@@ -8,7 +8,7 @@ that say what the log cannot tell:
 >>> result = lissom.identify(campaign)  # doctest: +SKIP
 >>> print(result)  # doctest: +SKIP
 
-Numbers are in SI units and rad/s; keys end with their unit, as in ``result["friction.coulomb_nm"]``.
+Numbers are in SI units and rad/s; an estimate has its unit: ``result["friction.coulomb"].unit``.
 """
 
 from ._campaign import Campaign

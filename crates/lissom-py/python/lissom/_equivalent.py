@@ -66,7 +66,7 @@ class Equivalent:
 
     @property
     def torque(self) -> Mapping[str, Estimate | None]:
-        """Motor and coupling: ``inertia_kg_m2``, ``viscous_nm_s_per_rad`` and others; empty without the motor's response."""
+        """Motor and coupling: ``inertia``, ``viscous`` and others; empty without the motor's response."""
         return MappingProxyType(estimates(self._entry["torque"] or {}))
 
     @functools.cached_property

@@ -4,8 +4,6 @@ from __future__ import annotations
 
 from typing import Any
 
-from ._units import unit_of
-
 
 class Estimate(float):
     """An estimate: a float with its standard error.
@@ -67,12 +65,12 @@ class Estimate(float):
         return (Estimate, (float(self), self._std, self._ci95, self._unit))
 
     @classmethod
-    def _of(cls, entry: Any, unit: str) -> Estimate | None:
+    def _of(cls, entry: Any) -> Estimate | None:
         """Make an estimate of an entry of a result, None of null."""
         if entry is None:
             return None
         low, high = entry["ci95"]
-        return cls(entry["value"], entry["std"], (low, high), unit)
+        return cls(entry["value"], entry["std"], (low, high), entry["unit"])
 
 
 def is_estimate(value: object) -> bool:
@@ -104,4 +102,4 @@ def estimates(table: dict[str, Any]) -> dict[str, Estimate | None]:
     dict
         Estimates by key; None if refused.
     """
-    return {key: Estimate._of(value, unit_of(key)) for key, value in table.items() if value is None or is_estimate(value)}
+    return {key: Estimate._of(value) for key, value in table.items() if value is None or is_estimate(value)}

@@ -24,7 +24,8 @@ class Fleet(Mapping[str, Any]):
 
     Columns are ``log``, ``machine``, ``time`` (UTC), ``failure`` and ``message`` (empty if the log was identified), ``effort``,
     ``refusals``, ``warnings`` and ``infos`` (codes of findings), ``seconds``, ``version``, ``input_sha256``, and each estimate
-    with its standard error, as ``friction.coulomb_nm`` and ``friction.coulomb_nm.std``; NaN where it is refused.
+    with its standard error, as ``friction.coulomb [N·m]`` and ``friction.coulomb.std [N·m]``; NaN where it is refused. The
+    unit may be left out if all logs have the same.
 
     Parameters
     ----------
@@ -64,7 +65,13 @@ class Fleet(Mapping[str, Any]):
         return tuple(self._folder / part["file"] for part in self._manifest["parts"])
 
     def __getitem__(self, name: str) -> Any:
-        return self._read()[name]
+        columns = self._read()
+        if name in columns:
+            return columns[name]
+        with_unit = [column for column in columns if column.startswith(f"{name} [")]
+        if len(with_unit) > 1:
+            raise KeyError(f"logs have {name} in several units: {', '.join(with_unit)}")
+        return columns[with_unit[0] if with_unit else name]
 
     def __iter__(self) -> Iterator[str]:
         return iter(self._read())

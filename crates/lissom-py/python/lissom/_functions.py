@@ -54,7 +54,7 @@ def identify(
         Effort of the search: none (a fraction of a second), about 10 s, or minutes on two cores. It is a count of
         evaluations, so that a result does not depend on the machine.
     require : sequence of str
-        Keys that must be identified, as ``friction.coulomb``, ``drive.inertia_kg_m2`` or ``beam``.
+        Keys that must be identified, as ``friction.coulomb``, ``drive.inertia`` or ``beam``.
     window : float, optional
         Length of the window of the regression [s]; chosen from the data if absent.
     time_limit : float, optional

@@ -18,7 +18,6 @@ if TYPE_CHECKING:
     from ._estimate import Estimate
     from ._validation import Validation
 
-_TORQUES = {"nm": "N·m", "n": "N", "a": "A", "v": "V"}
 _RAW, _CORRECTED, _MODEL = "0.6", "C0", "C3"
 
 
@@ -134,14 +133,13 @@ class ResultPlots:
         table, linear = content["friction"], content["axis"] == "linear"
         speeds, values, bars, unit = [], [], [], ""
         for point in table["curve"] or []:
-            speed = next(value for key, value in point.items() if key.startswith("speed"))
-            key = [key for key in point if key.startswith("friction")][-1]
-            unit = _TORQUES.get(key.rsplit("_", 1)[-1], "unit of the command")
+            found, unit = point["friction"], point["friction"]["unit"]
             sign = 1 if point["direction"] == "forward" else -1
-            speeds.append(sign * abs(speed))
-            values.append(sign * point[key]["value"])
-            bars.append(1.96 * point[key]["std"])
-        lines = self._lines()
+            speeds.append(sign * abs(point["speed"]["value"]))
+            values.append(sign * found["value"])
+            bars.append(1.96 * found["std"])
+        law = table.get("law")
+        lines = _lines(law or table)
         if not speeds and not lines:
             raise InputError("there is no friction to draw", "the findings give the reason")
         (axes,) = axes_of(ax, 1)
@@ -151,11 +149,11 @@ class ResultPlots:
             size = 2 * max(abs(value) for value in values)
             axes.errorbar(speeds, values, yerr=np.minimum(bars, size), **style)
         most = max((abs(speed) for speed in speeds), default=1.0)
-        law = content["friction"].get("law")
         for sign, (coulomb, viscous) in lines.items():
-            line = np.array([0.0, sign * most])
-            label = "Coulomb and viscous friction" + (", without the further terms" if law else "")
-            axes.plot(line, sign * coulomb + viscous * line, color=_MODEL, linewidth=1, label=label)
+            line = np.linspace(0.0, most, 200)
+            friction = coulomb + viscous * line + (_further(law, line) if law else 0.0)
+            label = "law of friction, without ripples and load" if law else "Coulomb and viscous friction"
+            axes.plot(sign * line, sign * friction, color=_MODEL, linewidth=1, label=label)
         axes.axhline(0.0, color="0.8", linewidth=0.8, zorder=0)
         axes.set_xlabel("speed (m/s)" if linear else "speed (rad/s)")
         axes.set_ylabel(f"friction ({unit})" if unit else "friction")
@@ -189,26 +187,6 @@ class ResultPlots:
         """
         return self._result._validation(campaign).plot.residual(channels, ax)
 
-    def _lines(self) -> dict[int, tuple[float, float]]:
-        """Give Coulomb and viscous friction by the sign of the speed, in the unit of the curve."""
-        friction = self._result.friction
-
-        def one(*names: str) -> float | None:
-            for name in names:
-                keys = [key for key in friction if key.startswith(name + "_")]
-                found = friction[keys[-1]] if keys else None
-                if found is not None:
-                    return float(found)
-            return None
-
-        lines = {}
-        for sign, direction in ((1, "forward"), (-1, "backward")):
-            coulomb = one(direction, "coulomb")
-            viscous = one(f"viscous_{direction}", "viscous")
-            if coulomb is not None and viscous is not None:
-                lines[sign] = (coulomb, viscous)
-        return lines
-
     def _model(self, output: str, axes: NDArray[Any], omega: NDArray[np.float64]) -> None:
         models = self._result.to_dict()["models"]
         model = models["motor"] if output == "motor" else {tip["name"]: tip for tip in models["tips"]}.get(output)
@@ -221,3 +199,26 @@ class ResultPlots:
         jumps = np.abs(np.diff(angle)) > 180
         angle[1:][jumps] = np.nan
         axes[1].plot(line, angle, color=_MODEL, linewidth=1, zorder=0)
+
+
+def _lines(friction: dict[str, Any]) -> dict[int, tuple[float, float]]:
+    """Give Coulomb and viscous friction by the sign of the speed."""
+    lines = {}
+    for sign, direction in ((1, "forward"), (-1, "backward")):
+        coulomb = friction[direction] or friction["coulomb"]
+        viscous = friction.get(f"viscous_{direction}") or friction["viscous"]
+        if coulomb is not None and viscous is not None:
+            lines[sign] = (coulomb["value"], viscous["value"])
+    return lines
+
+
+def _further(law: dict[str, Any], speed: NDArray[np.float64]) -> NDArray[np.float64]:
+    """Give the terms of a law of friction that change with speed, beyond viscous friction."""
+    sum_ = np.zeros_like(speed)
+    near, root = law.get("near_rest"), law.get("root")
+    if near:
+        power = 2 if near["falloff"] == "gaussian" else 1
+        sum_ += near["amplitude"]["value"] * np.exp(-((speed / near["speed"]["value"]) ** power))
+    if root:
+        sum_ += root["value"] * np.sqrt(speed)
+    return sum_

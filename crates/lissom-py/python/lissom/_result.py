@@ -22,7 +22,6 @@ from ._finding import Finding
 from ._frames import parameters_frame, payloads_frame
 from ._plots import ResultPlots
 from ._tables import Path
-from ._units import unit_of
 from ._validation import Validation
 
 if TYPE_CHECKING:
@@ -39,9 +38,9 @@ NO_LOGS = "identify the logs again: a result that was read from a file has no lo
 class Result(Mapping[str, "Estimate | None"]):
     """What the logs of a drive say: friction, inertia, modes, responses, and findings.
 
-    A result is an immutable mapping of keys, as ``friction.coulomb_nm``, to estimates, in the order of the tables. An estimate
+    A result is an immutable mapping of keys, as ``friction.coulomb``, to estimates, in the order of the tables. An estimate
     that the logs do not determine is None, and a finding gives the reason. Its bytes are those of the file result.json; by its
-    keys ``result["methods.regression.coulomb_nm"]`` gives further estimates, which are not listed.
+    keys ``result["methods.regression.coulomb"]`` gives further estimates, which are not listed.
 
     Parameters
     ----------
@@ -149,12 +148,12 @@ class Result(Mapping[str, "Estimate | None"]):
 
     @property
     def friction(self) -> Mapping[str, Estimate | None]:
-        """Friction: ``coulomb_a``, ``coulomb_nm``, ``forward_nm``, ``viscous_nm_s_per_rad`` and others; None if refused."""
+        """Friction: ``coulomb``, ``forward``, ``backward``, ``offset``, ``viscous``; None if refused."""
         return self._estimates("friction")
 
     @property
     def drive(self) -> Mapping[str, Estimate | None]:
-        """The drive: ``inertia_kg_m2`` (``inertia_kg`` of a linear axis)."""
+        """The drive: ``inertia`` (the mass of a linear axis)."""
         return self._estimates("drive")
 
     @property
@@ -164,7 +163,7 @@ class Result(Mapping[str, "Estimate | None"]):
 
     @property
     def beam(self) -> Mapping[str, Estimate | None]:
-        """The beam except its modes: ``coupling_nm_per_rad``."""
+        """The beam except its modes: ``coupling``."""
         return self._estimates("beam")
 
     @property
@@ -297,7 +296,7 @@ class Result(Mapping[str, "Estimate | None"]):
             return None
         if not is_estimate(value):
             raise KeyError(f"{key} is no estimate; to_dict() has everything")
-        return Estimate._of(value, unit_of(key))
+        return Estimate._of(value)
 
     def __iter__(self) -> Iterator[str]:
         return iter(self._content.listed)
