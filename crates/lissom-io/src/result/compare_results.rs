@@ -198,10 +198,12 @@ fn difference(
 
 #[cfg(test)]
 mod tests {
+    use lissom_core::identify::Estimate;
+
     use super::*;
 
     fn estimate(value: f64, std: f64) -> EstimateEntry {
-        EstimateEntry { value, std, ci95: [value - 1.96 * std, value + 1.96 * std] }
+        EstimateEntry::of(Estimate { value, std }, "N·m")
     }
 
     #[test]
