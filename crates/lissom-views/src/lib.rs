@@ -65,6 +65,7 @@ pub mod run_table;
 mod separability_section;
 pub mod slip_windows;
 pub mod third_harmonic;
+pub mod unused_torque;
 mod validation_plots;
 pub mod velocity_friction;
 

@@ -18,6 +18,7 @@ use crate::parameter_rows::{KNOWN_DIGITS, ParameterRow, classical_rows, paramete
 use crate::program_hints::ProgramHints;
 use crate::run_table::run_table;
 use crate::slip_windows::window_table;
+use crate::unused_torque::unused_torque_words;
 use crate::validation_plots::correlation_figures;
 use crate::velocity_friction::{friction_plot, stretch_table};
 use crate::{
@@ -70,6 +71,9 @@ pub fn page(title: &str, content: PageContent<'_>) -> Page {
             .key_figures("For tools that know one Coulomb and one viscous friction only", &figures)
             .paragraph(&format!("By {}.", found.words));
     }
+    if let Some(words) = unused_torque_words(result) {
+        page = page.paragraph(&format!("Unused {words}."));
+    }
     page = separability_section::section(page, result);
     page = motion_section(page, result, logs);
     page = response_section(page, names, result, reference);
@@ -107,9 +111,9 @@ pub fn page(title: &str, content: PageContent<'_>) -> Page {
     if let Some(law) = &result.methods.friction_law {
         page = page
             .paragraph(
-                "A term is accepted if it describes left-out slip phases better by more than three \
-                 standard errors, describes left-out stretches of one kind better as well, reduces the \
-                 residual to 0.9 or less, and friction at rest stays positive.",
+                "A term is adopted if the model with it predicts blocks of the logs that were left out of the \
+                 fit better, by two standard errors and a twentieth of their squared residual, and kinds of \
+                 motion that were left out as well, and if a joint may have it: friction at rest stays positive.",
             )
             .table(&friction_curve::table(law));
     }

@@ -9,6 +9,7 @@ use lissom_io::write::{self, Batch};
 use lissom_io::{ResultFile, UnitNames, read_campaign};
 use lissom_views::known_arm::checked;
 use lissom_views::report_page::{self, PageContent};
+use lissom_views::unused_torque::unused_torque_words;
 use lissom_views::{Reference, result_figures};
 
 use crate::args::identify_args::IdentifyArgs;
@@ -83,6 +84,9 @@ pub(crate) fn run(args: &IdentifyArgs) -> Result<ExitCode, Failure> {
         campaign_summary::runs(&id);
         printer::line("");
         parameter_table::parameters(names, &result, reference);
+        if let Some(words) = unused_torque_words(&result) {
+            printer::line(&words);
+        }
         parameter_table::speeds_of_law(names, &id);
         parameter_table::line_of_least_squares(names, &result);
         parameter_table::constant_velocity(&result);

@@ -9,7 +9,7 @@ use crate::identify::friction_estimates::Friction;
 use crate::identify::gravity_estimate::Gravity;
 use crate::identify::judge::{Conclusion, Methods};
 use crate::identify::methods::constant_velocity::ConstantVelocity;
-use crate::identify::methods::friction_law::FrictionLaw;
+use crate::identify::methods::friction_law::{FrictionLaw, Unused, UnusedTorque};
 use crate::identify::methods::least_squares::LeastSquares;
 use crate::identify::methods::output_error::{OutputError, SearchEnd};
 use crate::identify::methods::regression::{BeamRegression, MotorRegression};
@@ -84,6 +84,9 @@ pub struct Identified {
     pub separability: Option<Separability>,
     /// The arm of this result, to predict other logs with; `None` if the estimates do not make a complete arm.
     pub arm: Option<FoundArm>,
+    /// What the line and this result's model leave of torque that was not used for their fit; `None` without a friction law, and
+    /// if the solution is not from slip phases or of a rigid arm.
+    pub unused_torque: Option<UnusedTorque>,
     /// Torque constant that was used; `None` if estimates are per unit of command.
     pub torque_per_command: Option<f64>,
     /// Findings: what the logs do not determine, what is wrong with them, and what to know about the estimates.
@@ -106,6 +109,16 @@ impl Identified {
         conclusion: Conclusion,
     ) -> Self {
         let Conclusion { chosen, separability, arm, findings } = conclusion;
+        let unused = match chosen.method {
+            Some(Method::OutputError) => {
+                methods.output_error.as_ref().and_then(|oe| oe.unused.as_ref())
+            }
+            Some(Method::FrictionLaw | Method::Regression) => {
+                methods.friction_law.as_ref().map(|law| &law.unused)
+            }
+            _ => None,
+        };
+        let unused_torque = unused.map(Unused::shares);
         Self {
             method: chosen.method,
             friction: chosen.drive.friction,
@@ -130,6 +143,7 @@ impl Identified {
             equivalent,
             separability,
             arm,
+            unused_torque,
             torque_per_command: campaign.channels.command.torque_per_command,
             findings,
         }

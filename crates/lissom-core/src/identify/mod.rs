@@ -45,7 +45,7 @@ pub use methods::constant_velocity::{
 };
 pub use methods::friction_law::{
     AngleLag, CurvePoint, FrictionLaw, LagShape, LawCandidate, LawFit, LawTerm, MissingKind,
-    MissingTerm, ModelTerm, Moved, MovingTerm, ScaleUnit,
+    MissingTerm, ModelTerm, Moved, MovingTerm, ScaleUnit, UnusedTorque,
 };
 pub use methods::least_squares::{LeastSquares, least_squares};
 pub use methods::output_error::{

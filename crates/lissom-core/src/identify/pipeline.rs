@@ -189,13 +189,18 @@ pub fn identify(
         let lag_s = delay.map_or(0.0, |lag| lag.time_s);
         let known = (&drive, &motor, lag_s);
         let arms = starting_arms(replayed.used(), known, beam, tips, &shown, corrected);
-        output_error(replayed, &start_of(replayed, options, arms, (&motor, law)))
+        let found = output_error(replayed, &start_of(replayed, options, arms, (&motor, law)))?;
+        let (campaign, noise) = (replayed.used(), replayed.noise());
+        let unused =
+            law.and_then(|law| law.unused.with_arm(campaign, noise, law.window_s, &found.arm));
+        Some((found, unused))
     });
     let lawful = law.as_ref().is_some_and(|(law, _)| law.chosen.departs());
     let doubted = !missing.is_empty() && !lawful;
     let line_holds = !lawful && missing.is_empty();
     let varies = line_holds && regression.as_ref().is_some_and(|r| r.varies_by().is_some());
-    let output_error = output_error.map(|oe| oe.beside_regression(doubted, varies));
+    let output_error =
+        output_error.map(|(oe, unused)| oe.beside_regression(doubted, varies).beside_line(unused));
     let stands = output_error.as_ref().is_some_and(OutputError::stands);
     let rigid = regression.as_ref().filter(|_| !stands);
     let rigid = rigid.and_then(|r| rigid_equation(&prepared, options, r));

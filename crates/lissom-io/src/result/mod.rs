@@ -80,6 +80,7 @@ pub use read_result::{ListedParameter, PHASE_KEY, ParameterList, read_result};
 pub use result_error::ResultError;
 pub use result_file::{
     BeamEntry, DriveEntry, HarmonicsEntry, ResultFile, RunEntry, RunKindName, SinusoidEntry,
+    UnusedTorqueEntry,
 };
 pub use separability_entry::{
     CorrelationEntry, DirectionPartEntry, MotionKindName, ParameterCertaintyEntry,

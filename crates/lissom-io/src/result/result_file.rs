@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use lissom_core::identify::{GeometryCheck, Identified, RunAnalysis, RunKind};
+use lissom_core::identify::{GeometryCheck, Identified, RunAnalysis, RunKind, UnusedTorque};
 use lissom_core::record::Channels;
 use lissom_core::spectrum::Harmonics;
 use serde::{Deserialize, Serialize};
@@ -41,6 +41,9 @@ pub struct ResultFile {
     pub from: Option<MethodName>,
     /// Friction from this method.
     pub friction: FrictionEntry,
+    /// What remains of the torque in slip phases that were left out of the fit; null if the solution is not from slip phases or
+    /// of a rigid arm.
+    pub unused_torque: Option<UnusedTorqueEntry>,
     /// The drive.
     pub drive: DriveEntry,
     /// Gravity of an unbalanced load; null unless the campaign asks for it and the data determine it.
@@ -68,6 +71,16 @@ pub struct ResultFile {
     pub runs: Vec<RunEntry>,
     /// What the data do not determine, and what to know about the estimates.
     pub findings: Vec<FindingEntry>,
+}
+
+/// Rms of what remains of the torque in slip phases that were left out of the fit, as a share of it.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+pub struct UnusedTorqueEntry {
+    /// With inertia, Coulomb friction, one viscous constant and an offset, and coupling or gravity where it is known.
+    pub line: f64,
+    /// With the model of this result.
+    pub model: f64,
 }
 
 /// The drive.
@@ -207,6 +220,9 @@ impl ResultFile {
             command_unit: CommandUnitName::of(channels.command.quantity),
             from: id.method.and_then(MethodName::of),
             friction: FrictionEntry::of(names, id),
+            unused_torque: id
+                .unused_torque
+                .map(|UnusedTorque { line, model }| UnusedTorqueEntry { line, model }),
             drive: DriveEntry { inertia: EstimateEntry::or_null(id.inertia, names.inertia_unit()) },
             gravity: id.gravity.as_ref().map(|g| GravityEntry::of(names, g, id.torque_constant)),
             beam: BeamEntry::of(names, id),

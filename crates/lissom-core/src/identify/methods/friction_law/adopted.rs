@@ -16,7 +16,7 @@ use crate::identify::methods::regression::{
 
 impl Search<'_> {
     /// The terms of the law that were adopted, and their columns with those of the line.
-    fn adopted(&self) -> (Vec<(LawTerm, &Candidate)>, Vec<usize>) {
+    pub(super) fn adopted(&self) -> (Vec<(LawTerm, &Candidate)>, Vec<usize>) {
         let laws: Vec<_> = self.taken.iter().filter_map(|c| Some((c.term.law()?, c))).collect();
         let further = laws.iter().flat_map(|(_, c)| c.columns.iter().copied());
         let columns = (0..self.line).chain(further).collect();

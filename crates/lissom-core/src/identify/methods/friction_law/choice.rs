@@ -267,12 +267,24 @@ impl<'a> Search<'a> {
     fn adopt(&mut self, best: Judged, width: usize) {
         let beside = self.taken.len();
         let taken: Vec<Candidate> = best.offers.into_iter().map(|o| o.all).collect();
+        let mut first = self.columns().len();
         for candidate in &taken {
-            let noted = self.candidates.iter_mut().rev();
-            let same = noted.take_while(|c| c.beside == beside).find(|c| c.term == candidate.term);
+            let count = candidate.columns.len();
+            let noted = self.candidates.iter_mut().rev().take_while(|c| c.beside == beside);
+            let same = noted.into_iter().find(|c| c.term.name() == candidate.term.name());
             if let Some(noted) = same {
-                noted.taken = true;
+                // What speaks for a pair speaks for both.
+                *noted = LawCandidate {
+                    term: candidate.term,
+                    beside,
+                    amplitude: amplitude(&best.solution, first, count, candidate.term),
+                    saved: best.improvement.saved,
+                    standard_errors: best.improvement.standard_errors,
+                    across_kinds: best.across_kinds,
+                    taken: true,
+                };
             }
+            first += count;
         }
         self.rows.truncate(self.sampled, width);
         for candidate in taken {
@@ -342,6 +354,16 @@ impl Search<'_> {
     pub(super) fn left_out_shares(&self) -> Option<ByBlock> {
         let left_out = self.divided.left_out(&self.columns())?;
         Some(left_out.by_block.scaled(1.0 / self.divided.total().power()))
+    }
+
+    /// Squared residuals of blocks that were left out of the fit of the line.
+    pub(super) fn left_out_by_line(&self) -> Option<ByBlock> {
+        Some(self.divided.left_out(&(0..self.line).collect::<Vec<_>>())?.by_block)
+    }
+
+    /// The same with the terms of the law that were adopted.
+    pub(super) fn left_out_by_law(&self) -> Option<ByBlock> {
+        Some(self.divided.left_out(&self.adopted().1)?.by_block)
     }
 
     /// Relative residual with the terms taken, without a lag.

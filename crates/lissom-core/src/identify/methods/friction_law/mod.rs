@@ -25,6 +25,7 @@ mod scanned;
 mod tests;
 pub(crate) mod thresholds;
 mod unadopted;
+mod unused_torque;
 
 pub use candidates::{MissingKind, ModelTerm};
 pub use choice::LawCandidate;
@@ -38,13 +39,16 @@ pub use law_term::{LawTerm, ScaleUnit};
 pub(crate) use projection::Speeds;
 pub use unadopted::{MissingTerm, Moved, MovingTerm};
 pub(crate) use unadopted::{PossibleTerm, widened};
+pub(crate) use unused_torque::Unused;
+pub use unused_torque::UnusedTorque;
 
 use rayon::prelude::*;
 
 use crate::identify::estimate::Estimate;
 use crate::identify::gravity_estimate::Gravity;
+use crate::identify::methods::friction_law::blocks::BlockRows;
 use crate::identify::methods::friction_law::choice::{LAG, Search, choose};
-use crate::identify::methods::friction_law::prediction::Improvement;
+use crate::identify::methods::friction_law::prediction::{ByBlock, Divided, Improvement};
 use crate::identify::methods::friction_law::thresholds::{
     FASTEST_QUANTILE, LAG_SETTLED, LAG_SHAPE_TOLD, TORQUE_OF_NOISE,
 };
@@ -83,6 +87,8 @@ pub struct FrictionLaw {
     pub lag: Option<AngleLag>,
     /// Terms that are not known to be absent.
     pub(crate) possible: Vec<PossibleTerm>,
+    /// What line and model leave of blocks that were left out of their fit.
+    pub(crate) unused: Unused,
     /// The speeds of the windows.
     pub(crate) speeds: Speeds,
     /// Relative residual ‖y − X·q‖/‖y‖ of the line, of the chosen model, and of the curve \[1\].
@@ -224,13 +230,20 @@ pub(crate) fn friction_law(
         let found = Found::of(&sampled, false)?;
         match found.lag(&short) {
             Some(lag) => lag,
-            None => return found.law(&sampled, None, possible),
+            None => {
+                let line = found.search.left_out_by_line()?;
+                return found.law(&sampled, None, possible, line);
+            }
         }
     };
+    let in_time = short.sampled();
     let late = lag.late(campaign);
     let late = Source { campaign: &late, ..short };
     let sampled = late.sampled();
-    let (mut law, sums) = Found::of(&sampled, true)?.law(&sampled, Some(lag), possible)?;
+    let found = Found::of(&sampled, true)?;
+    let line = Divided::of(&BlockRows::of(&in_time, &found.cut));
+    let line = line.left_out(&(0..found.search.line).collect::<Vec<_>>())?.by_block;
+    let (mut law, sums) = found.law(&sampled, Some(lag), possible, line)?;
     law.candidates.insert(0, tried);
     Some((law, sums))
 }
@@ -338,6 +351,7 @@ impl<'a> Found<'a> {
         sampled: &Sampled<'_>,
         lag: Option<AngleLag>,
         possible: Vec<PossibleTerm>,
+        line: ByBlock,
     ) -> Option<(FrictionLaw, CurveSums)> {
         let Self { search, cut, speeds, line_residual } = self;
         let quantiles = Speeds::of(speeds);
@@ -354,6 +368,12 @@ impl<'a> Found<'a> {
             missing,
             lag,
             possible,
+            unused: Unused {
+                line,
+                model: search.left_out_by_law()?,
+                power: search.divided.total().power(),
+                cut: *cut,
+            },
             speeds: quantiles,
         };
         Some((law, sums))

@@ -28,7 +28,7 @@ pub(super) struct Divided {
 }
 
 /// Squared residuals of each block, which was left out of the fit.
-#[derive(Debug, Clone, Default)]
+#[derive(Debug, Clone, Default, PartialEq)]
 pub(super) struct ByBlock {
     /// Beyond what noise of the sensors adds in expectation.
     beyond_noise: Vec<f64>,
@@ -40,6 +40,11 @@ impl ByBlock {
     fn push(&mut self, block: &Gram, columns: &[usize], value: &DVector<f64>) {
         self.beyond_noise.push(block.squared(columns, value));
         self.all.push(block.squared_with_noise(columns, value));
+    }
+
+    /// Sum over all blocks, noise included.
+    pub(super) fn all(&self) -> f64 {
+        self.all.iter().sum()
     }
 
     /// All times a factor.
@@ -120,6 +125,13 @@ impl Divided {
             }
         }
         Some(LeftOut { by_block, kinds })
+    }
+
+    /// What some values leave of each block.
+    pub(super) fn left_by(&self, columns: &[usize], value: &DVector<f64>) -> ByBlock {
+        let mut found = ByBlock::default();
+        self.blocks.iter().for_each(|block| found.push(block, columns, value));
+        found
     }
 
     /// Predictions of each half by a fit of the other, whose columns were chosen there: `columns` of either half.

@@ -34,8 +34,8 @@ pub(super) struct WindowPlace {
 }
 
 /// How stretches are told apart: where travel is halved, and the speeds are parted in three.
-#[derive(Debug, Clone, Copy)]
-pub(super) struct Cut {
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) struct Cut {
     pub(super) middle: f64,
     pub(super) thirds: [f64; 2],
 }

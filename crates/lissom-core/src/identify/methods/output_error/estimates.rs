@@ -4,7 +4,7 @@ use crate::identify::drive_estimates::DriveEstimates;
 use crate::identify::estimate::{Estimate, ModeEstimate};
 use crate::identify::friction_estimates::{Friction, LawEstimates};
 use crate::identify::gravity_estimate::Gravity;
-use crate::identify::methods::friction_law::{LawTerm, Speeds};
+use crate::identify::methods::friction_law::{LawTerm, Speeds, Unused};
 use crate::identify::methods::output_error::found::OutputError;
 use crate::identify::methods::output_error::model::describes::{
     accepted_residual, is_left, is_sound,
@@ -161,5 +161,13 @@ impl OutputError {
             _ => self.accepted_residual,
         };
         Self { accepted_residual, ..self }
+    }
+
+    /// The same beside the line of slip phases: an arm that predicts their torque worse is not accepted.
+    #[must_use]
+    pub(crate) fn beside_line(self, unused: Option<Unused>) -> Self {
+        let is_worse = unused.as_ref().is_some_and(Unused::is_worse);
+        let accepted_residual = if is_worse { 0.0 } else { self.accepted_residual };
+        Self { accepted_residual, unused, ..self }
     }
 }

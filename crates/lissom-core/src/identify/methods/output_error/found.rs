@@ -5,7 +5,7 @@ use num_complex::Complex64;
 
 use crate::identify::estimate::Estimate;
 use crate::identify::interrupt::Interrupt;
-use crate::identify::methods::friction_law::LawTerm;
+use crate::identify::methods::friction_law::{LawTerm, Unused};
 use crate::identify::methods::output_error::engine::by_run::ByRun;
 use crate::identify::methods::output_error::engine::covariance::standard_error;
 use crate::identify::methods::output_error::model::fit::{Extension, StageReport};
@@ -70,6 +70,8 @@ pub struct OutputError {
     pub(crate) sees_modes: bool,
     /// Share of each channel's squared residual, motor first, that is slower than its sensor's noise.
     pub left_over: Vec<f64>,
+    /// What the arm and the line leave of the torque in slip phases; `None` of an arm with modes or tips.
+    pub(crate) unused: Option<Unused>,
 }
 
 impl OutputError {

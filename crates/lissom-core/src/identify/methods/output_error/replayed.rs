@@ -73,6 +73,7 @@ pub fn output_error(prepared: &Prepared<'_>, start: &OutputErrorStart) -> Option
         accepted_residual: accepted_residual(fit.whole_runs),
         sees_modes,
         left_over: left,
+        unused: None,
         stages: report.stages,
         extensions: report.added,
         open_by_damping,
