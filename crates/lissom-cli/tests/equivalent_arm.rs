@@ -141,8 +141,8 @@ fn a_saved_arm_is_modelled_simulated_and_identified() {
     run(at, &["rig", "rig.toml", "--campaign", "plan.toml", "--out", "logs"]);
     let found = json(at, &["identify", "logs/campaign.toml", "--json"]);
     let figure = |pointer: &str| found.pointer(pointer).unwrap().as_f64().unwrap();
-    assert!((figure("/friction/coulomb_nm/value") / 0.03 - 1.0).abs() < 5e-3);
-    assert!((figure("/drive/inertia_kg_m2/value") / 1.2e-3 - 1.0).abs() < 1e-2);
+    assert!((figure("/friction/coulomb/value") / 0.03 - 1.0).abs() < 5e-3);
+    assert!((figure("/drive/inertia/value") / 1.2e-3 - 1.0).abs() < 1e-2);
     for (k, omega) in truth.natural_frequencies_rad_s().iter().enumerate() {
         let found = figure(&format!("/beam/modes/{k}/natural_frequency_rad_s/value"));
         assert!((found / omega - 1.0).abs() < 2e-3, "{found} {omega}");

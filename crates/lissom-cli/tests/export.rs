@@ -52,9 +52,9 @@ fn the_c_code_compiles_and_gives_the_torque() {
     let run = Command::new(folder.path().join("c/main")).output().unwrap();
     let printed = String::from_utf8(run.stdout).unwrap();
     let numbers: Vec<f64> = printed.split_whitespace().map(|n| n.parse().unwrap()).collect();
-    let arm = |key: &str| result["arm"][key]["value"].as_f64().unwrap();
+    let arm = |key: &str| result["arm"][key].as_f64().unwrap();
     let near = result["arm"]["near_rest"].as_object().map_or(0.0, |n| {
-        let number = |key: &str| n[key]["value"].as_f64().unwrap();
+        let number = |key: &str| n[key].as_f64().unwrap();
         number("amplitude") * (-2.0 / number("speed")).exp()
     });
     let size = arm("coulomb") + near;
@@ -69,7 +69,7 @@ fn the_c_code_compiles_and_gives_the_torque() {
 /// Coulomb friction of a pair: the simulated law has no change near rest, and the estimated one is small.
 fn near_coulomb(found: Option<&str>, result: &Value) {
     let (found, coulomb): (f64, _) =
-        (found.unwrap().parse().unwrap(), result["arm"]["coulomb"]["value"].as_f64().unwrap());
+        (found.unwrap().parse().unwrap(), result["arm"]["coulomb"].as_f64().unwrap());
     assert!((found / coulomb - 1.0).abs() < 1e-3, "{found} {coulomb}");
 }
 
@@ -85,7 +85,7 @@ fn a_joint_of_a_model_gets_the_numbers_and_nothing_else_changes() {
     let into = ["mjcf", "--into", "robot.xml", "--joint", "elbow", "--out", "new.xml"];
     let (code, error) = export(folder.path(), &into);
     assert_eq!(code, Some(0), "{error}");
-    let arm = |key: &str| result["arm"][key]["value"].as_f64().unwrap().to_string();
+    let arm = |key: &str| result["arm"][key].as_f64().unwrap().to_string();
     let new = fs::read_to_string(folder.path().join("new.xml")).unwrap();
     let document = roxmltree::Document::parse(&new).unwrap();
     let joint = document.descendants().find(|n| n.attribute("name") == Some("elbow")).unwrap();
@@ -164,7 +164,7 @@ fn a_matlab_file_and_scripts_have_the_model() {
         let (code, error) = export(folder.path(), &[target, "--out", name]);
         assert_eq!(code, Some(0), "{error}");
         let text = fs::read_to_string(folder.path().join(name)).unwrap();
-        let coulomb = result["arm"]["coulomb"]["value"].as_f64().unwrap().to_string();
+        let coulomb = result["arm"]["coulomb"].as_f64().unwrap().to_string();
         assert!(text.contains(&coulomb), "{target}: {text}");
     }
     let (code, error) = export(folder.path(), &["mjcf", "--out", "arm.xml"]);

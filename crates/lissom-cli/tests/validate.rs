@@ -129,9 +129,9 @@ fn a_log_not_used_is_predicted_and_a_wrong_figure_shows() {
     let result: Value = serde_json::from_slice(&fs::read(at.join("result.json")).unwrap()).unwrap();
     for (key, term) in [("inertia", "inertia"), ("coulomb", "coulomb")] {
         for factor in [0.8, 1.2] {
-            let figure = result["arm"][key]["value"].as_f64().unwrap();
+            let figure = result["arm"][key].as_f64().unwrap();
             let mut wrong = result.clone();
-            wrong["arm"][key]["value"] = json!(factor * figure);
+            wrong["arm"][key] = json!(factor * figure);
             fs::write(at.join("wrong.json"), wrong.to_string()).unwrap();
             let validation = validated(at, "wrong.json");
             let codes = codes(&validation);

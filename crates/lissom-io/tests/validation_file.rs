@@ -107,7 +107,7 @@ fn coupling_without_modes_is_read_back() {
     result["arm"]["modes"] = json!([]);
     result["arm"]["tips"][0]["shape"] = json!([]);
     result["arm"]["damping_at_points_per_s"] = json!([]);
-    result["arm"]["coupling_by_tip"] = json!({ "value": [1.25], "unit": "N·m/rad" });
+    result["arm"]["coupling_by_tip"] = json!([1.25]);
     let placed = place(&result.to_string());
     let read = read_arm(&placed.path, &channels(Some(CONSTANT))).unwrap();
     assert_eq!(read.coupling_alone_nm_per_rad, [1.25]);
@@ -144,16 +144,13 @@ fn what_is_no_arm_of_this_log_is_refused_with_a_way_out() {
     let mut no_tips = own.clone();
     no_tips.tips.clear();
     assert!(matches!(refused(&good, &no_tips), ResultError::OtherTips { .. }));
-    let number = |value: f64, unit: &str| json!({ "value": value, "unit": unit });
-    let ripple = json!({
-        "period": number(1e-12, "rad"), "cosine": number(0.01, "N·m"), "sine": number(0.0, "N·m"),
-    });
+    let ripple = json!({ "period": 1e-12, "cosine": 0.01, "sine": 0.0 });
     for (key, value) in [
-        ("/arm/inertia/value", json!(-1.0)),
+        ("/arm/inertia", json!(-1.0)),
         ("/arm/modes/0/natural_frequency_rad_s", json!(0.0)),
-        ("/arm/modes/0/stiffness/value", json!(-0.1)),
-        ("/arm/coulomb/value", json!(1e300)),
-        ("/arm/coulomb/unit", json!("A")),
+        ("/arm/modes/0/stiffness", json!(-0.1)),
+        ("/arm/coulomb", json!(1e300)),
+        ("/arm/torque_unit", json!("A")),
         ("/arm/ripples", json!([ripple])),
         ("/arm/tips/0/shape", json!([1.0, 2.0])),
         ("/arm/damping_at_points_per_s", json!([1.0, 2.0, 3.0])),
@@ -164,9 +161,9 @@ fn what_is_no_arm_of_this_log_is_refused_with_a_way_out() {
     }
     for (key, value, message) in [
         (
-            "/arm/inertia/value",
+            "/arm/inertia",
             json!("heavy"),
-            "`arm.inertia.value` cannot be read: invalid type: string \"heavy\", expected f64",
+            "`arm.inertia` cannot be read: invalid type: string \"heavy\", expected f64",
         ),
         (
             "/arm/from",

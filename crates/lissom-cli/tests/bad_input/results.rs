@@ -3,15 +3,22 @@
 use crate::bench::Bench;
 
 /// A result with no more than `lissom compare` needs.
-fn result(axis: &str, constant: &str, friction: &str) -> String {
+fn result(axis: &str, constant: &str, unit: &str) -> String {
+    let friction = if unit == "A" && constant == "null" { AMPERE } else { NONE };
+    with_friction(axis, constant, unit, friction)
+}
+
+fn with_friction(axis: &str, constant: &str, unit: &str, friction: &str) -> String {
     format!(
-        r#"{{"lissom": "0.1.0", "axis": "{axis}", "torque_per_command": {constant}, "from": null,
+        r#"{{"lissom": "0.1.0", "axis": "{axis}", "torque_per_command": {constant}, "command_unit": "{unit}", "from": null,
             "friction": {{{friction}, "curve": []}}, "drive": {{}}, "beam": {{"modes": []}}, "runs": [],
             "findings": []}}"#
     )
 }
 
 const AMPERE: &str = r#""coulomb": {"value": 1.0, "std": 0.1, "ci95": [0.8, 1.2], "unit": "A"}"#;
+
+const NONE: &str = r#""coulomb": null"#;
 
 fn refuses(bench: &Bench, arguments: &[&str], message: &str) {
     bench.lissom_refuses("compare", arguments, 1, message);
@@ -20,10 +27,10 @@ fn refuses(bench: &Bench, arguments: &[&str], message: &str) {
 #[test]
 fn a_file_is_no_result() {
     let bench = Bench::new()
-        .file("a.json", result("rotary", "null", AMPERE))
+        .file("a.json", result("rotary", "null", "A"))
         .file("model.json", "{\"lissom\": \"0.1.0\"}")
         .file("cut.json", "{\"lissom\":")
-        .file("old.json", result("rotary", "null", "\"coulomb\": 1"));
+        .file("old.json", with_friction("rotary", "null", "A", "\"coulomb\": 1"));
     let hint = "hint: give files that `lissom identify CAMPAIGN --json FILE` wrote";
     refuses(
         &bench,
@@ -52,7 +59,7 @@ fn a_file_is_no_result() {
     refuses(
         &bench,
         &["a.json", "old.json"],
-        "error: old.json: `friction.coulomb` cannot be read: invalid type: integer `1`, expected \
+        "error: old.json: `friction` cannot be read: invalid type: integer `1`, expected \
          struct EstimateEntry\n\
          hint: write it again with `lissom identify CAMPAIGN --json FILE`",
     );
@@ -60,7 +67,7 @@ fn a_file_is_no_result() {
 
 #[test]
 fn there_is_nothing_to_compare_with() {
-    let a = result("rotary", "null", AMPERE);
+    let a = result("rotary", "null", "A");
     let bench = Bench::new().file("a.json", &a).file("copy.json", &a);
     refuses(
         &bench,
@@ -79,13 +86,11 @@ fn there_is_nothing_to_compare_with() {
 
 #[test]
 fn results_are_in_different_units() {
-    let torque = r#""coulomb_a": null, "coulomb_nm": null"#;
-    let force = r#""coulomb_a": null, "coulomb_n": null"#;
     let bench = Bench::new()
-        .file("a.json", result("rotary", "null", AMPERE))
-        .file("v.json", result("rotary", "null", "\"coulomb_v\": null"))
-        .file("nm.json", result("rotary", "0.25", torque))
-        .file("n.json", result("linear", "40.0", force));
+        .file("a.json", result("rotary", "null", "A"))
+        .file("v.json", result("rotary", "null", "V"))
+        .file("nm.json", result("rotary", "0.25", "A"))
+        .file("n.json", result("linear", "40.0", "A"));
     refuses(
         &bench,
         &["a.json", "nm.json"],
@@ -113,9 +118,9 @@ fn results_are_in_different_units() {
 fn a_comparison_would_cost_a_result() {
     let other = AMPERE.replace("1.0", "1.1");
     let bench = Bench::new()
-        .file("a.json", result("rotary", "null", AMPERE))
-        .file("b.json", result("rotary", "null", &other))
-        .file("c.json", result("rotary", "null", &AMPERE.replace("1.0", "0.9")));
+        .file("a.json", result("rotary", "null", "A"))
+        .file("b.json", with_friction("rotary", "null", "A", &other))
+        .file("c.json", with_friction("rotary", "null", "A", &AMPERE.replace("1.0", "0.9")));
     refuses(
         &bench,
         &["a.json", "b.json", "--json", "a.json"],

@@ -97,12 +97,12 @@ const PAGE: &str = include_str!("../../../../docs/src/evidence/measured.md");
 fn published(found: &serde_json::Value) -> serde_json::Value {
     let mut result = found.clone();
     let arm = &mut result["arm"];
-    arm["inertia"]["value"] = PUBLISHED[0].1.into();
+    arm["inertia"] = PUBLISHED[0].1.into();
     for key in ["viscous_forward", "viscous_backward"] {
-        arm[key]["value"] = PUBLISHED[1].1.into();
+        arm[key] = PUBLISHED[1].1.into();
     }
-    arm["coulomb"]["value"] = PUBLISHED[2].1.into();
-    arm["offset"]["value"] = PUBLISHED[3].1.into();
+    arm["coulomb"] = PUBLISHED[2].1.into();
+    arm["offset"] = PUBLISHED[3].1.into();
     arm["command_lag_s"] = 0.0.into();
     for key in ["near_rest", "root", "with_load"] {
         arm[key] = serde_json::Value::Null;

@@ -8,26 +8,27 @@ use serde::{Deserialize, Serialize};
 
 use super::arm_numbers::{Numbers, WrongKey};
 use super::channel_names::{ArmSourceName, TipQuantityName};
-use super::estimate_entry::NumberEntry;
 use super::friction_term_entries::{ArmTermsEntry, ArmTorqueRippleEntry};
 use super::unit_names::UnitNames;
 
-/// The arm of a result. Torques are in N*m or N if the torque constant is known, otherwise in the unit of the command.
+/// The arm of a result.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct ArmEntry {
     /// The method that estimated it.
     pub from: ArmSourceName,
+    /// Unit of its torques; its other numbers are in this unit with rad (linear axes: m) and s.
+    pub torque_unit: String,
     /// Inertia or mass.
-    pub inertia: NumberEntry,
+    pub inertia: f64,
     /// Viscous friction forward, including the damping by back-EMF.
-    pub viscous_forward: NumberEntry,
+    pub viscous_forward: f64,
     /// Viscous friction backward, including the damping by back-EMF.
-    pub viscous_backward: NumberEntry,
+    pub viscous_backward: f64,
     /// Coulomb friction, mean of both directions.
-    pub coulomb: NumberEntry,
+    pub coulomb: f64,
     /// (forward - backward)/2.
-    pub offset: NumberEntry,
+    pub offset: f64,
     /// Further terms of friction.
     #[serde(flatten)]
     pub terms: ArmTermsEntry,
@@ -47,7 +48,7 @@ pub struct ArmEntry {
     /// Torque on the motor per deflection of each tip, if the logs show it but no mode. The arm then has no modes and
     /// predicts only the torque. Absent otherwise.
     #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub coupling_by_tip: Option<NumberEntry<Vec<f64>>>,
+    pub coupling_by_tip: Option<Vec<f64>>,
     /// The tips.
     pub tips: Vec<ArmTipEntry>,
     /// Damping of the point of each tip against the fixed frame; empty unless there are as many tips as modes.
@@ -64,9 +65,9 @@ pub struct ArmEntry {
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct ArmGravityEntry {
     /// Coefficient g_s.
-    pub sine: NumberEntry,
+    pub sine: f64,
     /// Coefficient g_c.
-    pub cosine: NumberEntry,
+    pub cosine: f64,
 }
 
 /// A mode as an oscillator on the motor.
@@ -76,7 +77,7 @@ pub struct OscillatorEntry {
     /// Its natural frequency.
     pub natural_frequency_rad_s: f64,
     /// Torque on the motor per deflection of the mode.
-    pub stiffness: NumberEntry,
+    pub stiffness: f64,
     /// Damping within the beam, 2*zeta*omega.
     pub damping_within_per_s: f64,
     /// Damping against the fixed frame, 2*zeta*omega.
@@ -109,27 +110,20 @@ impl ArmEntry {
         };
         Self {
             from: ArmSourceName::of(found.source),
-            inertia: NumberEntry::of(a.inertia_kg_m2, names.inertia_unit()),
-            viscous_forward: NumberEntry::of(a.viscous_nm_s_per_rad[0], names.viscous_unit()),
-            viscous_backward: NumberEntry::of(a.viscous_nm_s_per_rad[1], names.viscous_unit()),
-            coulomb: NumberEntry::of(a.coulomb_nm, names.torque_unit()),
-            offset: NumberEntry::of(a.offset_nm, names.torque_unit()),
-            terms: ArmTermsEntry::of(names, &a.dry_terms),
-            gravity: a.gravity.map(|g| ArmGravityEntry {
-                sine: NumberEntry::of(g.sine_nm, names.torque_unit()),
-                cosine: NumberEntry::of(g.cosine_nm, names.torque_unit()),
-            }),
-            torque_ripples: a
-                .torque_ripples
-                .iter()
-                .map(|r| ArmTorqueRippleEntry::of(names, r))
-                .collect(),
+            torque_unit: names.torque_unit().to_owned(),
+            inertia: a.inertia_kg_m2,
+            viscous_forward: a.viscous_nm_s_per_rad[0],
+            viscous_backward: a.viscous_nm_s_per_rad[1],
+            coulomb: a.coulomb_nm,
+            offset: a.offset_nm,
+            terms: ArmTermsEntry::of(&a.dry_terms),
+            gravity: a.gravity.map(|g| ArmGravityEntry { sine: g.sine_nm, cosine: g.cosine_nm }),
+            torque_ripples: a.torque_ripples.iter().map(|r| ArmTorqueRippleEntry::of(r)).collect(),
             command_lag_s: a.command_lag_s,
             command_is_filtered: found.lag_shape == LagShape::Filter,
-            modes: a.modes.iter().map(|m| OscillatorEntry::of(names, m)).collect(),
+            modes: a.modes.iter().map(|m| OscillatorEntry::of(m)).collect(),
             coupling_by_tip: Some(found.coupling_alone_nm_per_rad.clone())
-                .filter(|c| !c.is_empty())
-                .map(|c| NumberEntry::of(c, names.coupling_unit())),
+                .filter(|c| !c.is_empty()),
             tips: channels.tips.iter().zip(&a.shapes).enumerate().map(tip).collect(),
             damping_at_points_per_s: a.at_points_per_s.clone(),
             torque_error: found.torque_used.map(|t| t.relative_error),
@@ -137,10 +131,10 @@ impl ArmEntry {
         }
     }
 
-    /// The arm of this entry; its keys have the units of `names`.
+    /// The arm of this entry, for logs with the units of `names`.
     pub(crate) fn found(&self, names: UnitNames) -> Result<FoundArm, WrongKey> {
         let number = Numbers { at: "arm" };
-        let modes = self.modes.iter().map(|m| m.oscillator(names));
+        let modes = self.modes.iter().map(|m| m.oscillator());
         let modes = modes.collect::<Result<Vec<_>, _>>()?;
         let points = self.damping_at_points_per_s.len();
         if points != 0 && points != modes.len() {
@@ -149,14 +143,12 @@ impl ArmEntry {
         if self.tips.iter().any(|tip| tip.shape.len() != modes.len()) {
             return Err(number.wrong("tips[].shape", "one number for each mode"));
         }
+        let torque = names.torque_unit();
+        if self.torque_unit != torque {
+            return Err(number.wrong("torque_unit", torque));
+        }
         let by_tip = "coupling_by_tip";
-        let coupling = match &self.coupling_by_tip {
-            Some(coupling) if coupling.unit != names.coupling_unit() => {
-                return Err(number.wrong(by_tip, format!("in {}", names.coupling_unit())));
-            }
-            Some(coupling) => coupling.value.clone(),
-            None => Vec::new(),
-        };
+        let coupling = self.coupling_by_tip.clone().unwrap_or_default();
         if !coupling.is_empty() && (coupling.len() != self.tips.len() || !modes.is_empty()) {
             let expected = "one number for each tip, in an arm without modes";
             return Err(number.wrong(by_tip, expected));
@@ -167,24 +159,22 @@ impl ArmEntry {
         let lag = |tip: &ArmTipEntry| Numbers { at: "arm.tips[]" }.sane("lag_s", tip.lag_s);
         let lags = self.tips.iter().map(lag).collect::<Result<Vec<_>, _>>()?;
         let window = self.torque_window_s.filter(|window| *window > 0.0);
-        let torque = names.torque_unit();
-        let viscous = |key: &str, value| number.of(key, value, names.viscous_unit());
         let gravity = self.gravity.as_ref().map(|g| {
             let number = Numbers { at: "arm.gravity" };
-            let sine_nm = number.of("sine", &g.sine, torque)?;
-            let cosine_nm = number.of("cosine", &g.cosine, torque)?;
+            let sine_nm = number.sane("sine", g.sine)?;
+            let cosine_nm = number.sane("cosine", g.cosine)?;
             Ok(GravityLoad { sine_nm, cosine_nm })
         });
-        let ripples = self.torque_ripples.iter().map(|r| r.torque_ripple(names));
+        let ripples = self.torque_ripples.iter().map(|r| r.torque_ripple());
         let arm = ModalArm {
-            inertia_kg_m2: number.positive("inertia", &self.inertia, names.inertia_unit())?,
+            inertia_kg_m2: number.positive("inertia", self.inertia)?,
             viscous_nm_s_per_rad: [
-                viscous("viscous_forward", &self.viscous_forward)?,
-                viscous("viscous_backward", &self.viscous_backward)?,
+                number.sane("viscous_forward", self.viscous_forward)?,
+                number.sane("viscous_backward", self.viscous_backward)?,
             ],
-            coulomb_nm: number.of("coulomb", &self.coulomb, torque)?,
-            offset_nm: number.of("offset", &self.offset, torque)?,
-            dry_terms: self.terms.dry_terms(names)?,
+            coulomb_nm: number.sane("coulomb", self.coulomb)?,
+            offset_nm: number.sane("offset", self.offset)?,
+            dry_terms: self.terms.dry_terms()?,
             shapes: self.tips.iter().map(|tip| tip.shape.clone()).collect(),
             at_points_per_s: self.damping_at_points_per_s.clone(),
             gravity: gravity.transpose()?,
@@ -208,16 +198,16 @@ impl ArmEntry {
 }
 
 impl OscillatorEntry {
-    fn of(names: UnitNames, m: &Oscillator) -> Self {
+    fn of(m: &Oscillator) -> Self {
         Self {
             natural_frequency_rad_s: m.omega_rad_s,
-            stiffness: NumberEntry::of(m.stiffness_nm_per_rad, names.coupling_unit()),
+            stiffness: m.stiffness_nm_per_rad,
             damping_within_per_s: m.within_per_s,
             damping_grounded_per_s: m.grounded_per_s,
         }
     }
 
-    fn oscillator(&self, names: UnitNames) -> Result<Oscillator, WrongKey> {
+    fn oscillator(&self) -> Result<Oscillator, WrongKey> {
         let number = Numbers { at: "arm.modes[]" };
         let frequency = "natural_frequency_rad_s";
         let omega_rad_s = number.sane(frequency, self.natural_frequency_rad_s)?;
@@ -226,11 +216,7 @@ impl OscillatorEntry {
         }
         Ok(Oscillator {
             omega_rad_s,
-            stiffness_nm_per_rad: number.positive(
-                "stiffness",
-                &self.stiffness,
-                names.coupling_unit(),
-            )?,
+            stiffness_nm_per_rad: number.positive("stiffness", self.stiffness)?,
             within_per_s: number.sane("damping_within_per_s", self.damping_within_per_s)?,
             grounded_per_s: number.sane("damping_grounded_per_s", self.damping_grounded_per_s)?,
         })

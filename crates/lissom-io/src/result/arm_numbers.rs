@@ -1,6 +1,4 @@
-//! Checks of the numbers of an arm that is read: known units and plausible sizes.
-
-use super::estimate_entry::NumberEntry;
+//! Checks of the numbers of an arm that is read: plausible sizes.
 
 /// Largest plausible number in SI.
 const LARGEST: f64 = 1e12;
@@ -31,27 +29,8 @@ impl Numbers {
         Ok(value)
     }
 
-    /// A number with the unit that the drive's channels give.
-    pub(super) fn of(
-        &self,
-        key: &str,
-        number: &NumberEntry,
-        unit: impl Into<String>,
-    ) -> Result<f64, WrongKey> {
-        let unit = unit.into();
-        if number.unit != unit {
-            return Err(self.wrong(key, format!("in {unit}")));
-        }
-        self.sane(key, number.value)
-    }
-
-    pub(super) fn positive(
-        &self,
-        key: &str,
-        number: &NumberEntry,
-        unit: impl Into<String>,
-    ) -> Result<f64, WrongKey> {
-        let value = self.of(key, number, unit)?;
+    pub(super) fn positive(&self, key: &str, value: f64) -> Result<f64, WrongKey> {
+        let value = self.sane(key, value)?;
         if value > 0.0 { Ok(value) } else { Err(self.wrong(key, "greater than zero")) }
     }
 }

@@ -85,7 +85,7 @@ pub struct ArmTermsEntry {
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct ArmRootEntry {
     /// Amplitude A.
-    pub amplitude: NumberEntry,
+    pub amplitude: f64,
 }
 
 /// Friction that grows with the torque of gravity: s*mu*sqrt(g^2 + d^2) with g = sine*sin(q) + cosine*cos(q), q the motor's
@@ -96,9 +96,9 @@ pub struct ArmWithLoadEntry {
     /// Coefficient mu.
     pub coefficient: f64,
     /// Coefficient of sin(q).
-    pub sine: NumberEntry,
+    pub sine: f64,
     /// Coefficient of cos(q).
-    pub cosine: NumberEntry,
+    pub cosine: f64,
 }
 
 /// Friction near rest: s*A*exp(-|v|/v_s) or s*A*exp(-(v/v_s)^2), s the direction. Friction at rest is Coulomb friction
@@ -107,9 +107,9 @@ pub struct ArmWithLoadEntry {
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct ArmNearRestEntry {
     /// Amplitude A.
-    pub amplitude: NumberEntry,
+    pub amplitude: f64,
     /// Speed v_s.
-    pub speed: NumberEntry,
+    pub speed: f64,
     /// Which of the two forms.
     pub falloff: FalloffName,
 }
@@ -119,11 +119,11 @@ pub struct ArmNearRestEntry {
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct ArmRippleEntry {
     /// Its period.
-    pub period: NumberEntry,
+    pub period: f64,
     /// Amplitude of the cosine.
-    pub cosine: NumberEntry,
+    pub cosine: f64,
     /// Amplitude of the sine.
-    pub sine: NumberEntry,
+    pub sine: f64,
 }
 
 /// A torque ripple (cogging) of the motor: cosine*cos(k*x) + sine*sin(k*x) over the travel x, k = 2*pi/period, in both
@@ -224,102 +224,92 @@ impl RippleEntry {
 }
 
 impl ArmTermsEntry {
-    pub(super) fn of(names: UnitNames, terms: &DryTerms) -> Self {
+    pub(super) fn of(terms: &DryTerms) -> Self {
         Self {
-            near_rest: terms.near_rest.map(|n| ArmNearRestEntry::of(names, &n)),
-            ripples: terms.ripples.iter().map(|r| ArmRippleEntry::of(names, r)).collect(),
-            root: terms.root.map(|root| ArmRootEntry {
-                amplitude: NumberEntry::of(root.torque_nm_per_root_rad_s, names.root_unit()),
-            }),
+            near_rest: terms.near_rest.map(|n| ArmNearRestEntry::of(&n)),
+            ripples: terms.ripples.iter().map(|r| ArmRippleEntry::of(r)).collect(),
+            root: terms.root.map(|root| ArmRootEntry { amplitude: root.torque_nm_per_root_rad_s }),
             with_load: terms.with_load.map(|term| ArmWithLoadEntry {
                 coefficient: term.coefficient,
-                sine: NumberEntry::of(term.load.sine_nm, names.torque_unit()),
-                cosine: NumberEntry::of(term.load.cosine_nm, names.torque_unit()),
+                sine: term.load.sine_nm,
+                cosine: term.load.cosine_nm,
             }),
         }
     }
 
-    pub(super) fn dry_terms(&self, names: UnitNames) -> Result<DryTerms, WrongKey> {
-        let ripples = self.ripples.iter().map(|r| r.ripple(names, "arm.ripples[]"));
+    pub(super) fn dry_terms(&self) -> Result<DryTerms, WrongKey> {
+        let ripples = self.ripples.iter().map(|r| r.ripple("arm.ripples[]"));
         Ok(DryTerms {
-            root: self.root.as_ref().map(|r| r.root(names)).transpose()?,
-            with_load: self.with_load.as_ref().map(|l| l.with_load(names)).transpose()?,
-            near_rest: self.near_rest.as_ref().map(|n| n.near_rest(names)).transpose()?,
+            root: self.root.as_ref().map(|r| r.root()).transpose()?,
+            with_load: self.with_load.as_ref().map(|l| l.with_load()).transpose()?,
+            near_rest: self.near_rest.as_ref().map(|n| n.near_rest()).transpose()?,
             ripples: ripples.collect::<Result<_, _>>()?,
         })
     }
 }
 
 impl ArmNearRestEntry {
-    fn of(names: UnitNames, n: &NearRest) -> Self {
-        Self {
-            amplitude: NumberEntry::of(n.torque_nm, names.torque_unit()),
-            speed: NumberEntry::of(n.speed_rad_s, names.speed_unit()),
-            falloff: FalloffName::of(n.falloff),
-        }
+    fn of(n: &NearRest) -> Self {
+        Self { amplitude: n.torque_nm, speed: n.speed_rad_s, falloff: FalloffName::of(n.falloff) }
     }
 
-    fn near_rest(&self, names: UnitNames) -> Result<NearRest, WrongKey> {
+    fn near_rest(&self) -> Result<NearRest, WrongKey> {
         let number = Numbers { at: "arm.near_rest" };
         Ok(NearRest {
             offset_nm: 0.0,
-            torque_nm: number.of("amplitude", &self.amplitude, names.torque_unit())?,
-            speed_rad_s: number.positive("speed", &self.speed, names.speed_unit())?,
+            torque_nm: number.sane("amplitude", self.amplitude)?,
+            speed_rad_s: number.positive("speed", self.speed)?,
             falloff: self.falloff.falloff(),
         })
     }
 }
 
 impl ArmRootEntry {
-    fn root(&self, names: UnitNames) -> Result<Root, WrongKey> {
+    fn root(&self) -> Result<Root, WrongKey> {
         let number = Numbers { at: "arm.root" };
-        let amplitude = number.of("amplitude", &self.amplitude, names.root_unit())?;
+        let amplitude = number.sane("amplitude", self.amplitude)?;
         Ok(Root { torque_nm_per_root_rad_s: amplitude })
     }
 }
 
 impl ArmWithLoadEntry {
-    fn with_load(&self, names: UnitNames) -> Result<WithLoad, WrongKey> {
+    fn with_load(&self) -> Result<WithLoad, WrongKey> {
         let number = Numbers { at: "arm.with_load" };
-        let sine_nm = number.of("sine", &self.sine, names.torque_unit())?;
-        let cosine_nm = number.of("cosine", &self.cosine, names.torque_unit())?;
+        let sine_nm = number.sane("sine", self.sine)?;
+        let cosine_nm = number.sane("cosine", self.cosine)?;
         let coefficient = number.sane("coefficient", self.coefficient)?;
         Ok(WithLoad { coefficient, load: GravityLoad { sine_nm, cosine_nm } })
     }
 }
 
 impl ArmTorqueRippleEntry {
-    pub(super) fn of(names: UnitNames, r: &TorqueRipple) -> Self {
+    pub(super) fn of(r: &TorqueRipple) -> Self {
         let TorqueRipple { per_rad, cosine_nm, sine_nm } = *r;
-        Self { wave: ArmRippleEntry::of(names, &Ripple { per_rad, cosine_nm, sine_nm }) }
+        Self { wave: ArmRippleEntry::of(&Ripple { per_rad, cosine_nm, sine_nm }) }
     }
 
-    pub(super) fn torque_ripple(&self, names: UnitNames) -> Result<TorqueRipple, WrongKey> {
-        let wave = self.wave.ripple(names, "arm.torque_ripples[]")?;
+    pub(super) fn torque_ripple(&self) -> Result<TorqueRipple, WrongKey> {
+        let wave = self.wave.ripple("arm.torque_ripples[]")?;
         let Ripple { per_rad, cosine_nm, sine_nm } = wave;
         Ok(TorqueRipple { per_rad, cosine_nm, sine_nm })
     }
 }
 
 impl ArmRippleEntry {
-    fn of(names: UnitNames, r: &Ripple) -> Self {
-        Self {
-            period: NumberEntry::of(TAU / r.per_rad, names.angle()),
-            cosine: NumberEntry::of(r.cosine_nm, names.torque_unit()),
-            sine: NumberEntry::of(r.sine_nm, names.torque_unit()),
-        }
+    fn of(r: &Ripple) -> Self {
+        Self { period: TAU / r.per_rad, cosine: r.cosine_nm, sine: r.sine_nm }
     }
 
-    fn ripple(&self, names: UnitNames, at: &'static str) -> Result<Ripple, WrongKey> {
+    fn ripple(&self, at: &'static str) -> Result<Ripple, WrongKey> {
         let number = Numbers { at };
-        let period = number.of("period", &self.period, names.angle())?;
+        let period = number.sane("period", self.period)?;
         if period < SHORTEST {
             return Err(number.wrong("period", "1e-6 or more"));
         }
         Ok(Ripple {
             per_rad: TAU / period,
-            cosine_nm: number.of("cosine", &self.cosine, names.torque_unit())?,
-            sine_nm: number.of("sine", &self.sine, names.torque_unit())?,
+            cosine_nm: number.sane("cosine", self.cosine)?,
+            sine_nm: number.sane("sine", self.sine)?,
         })
     }
 }
