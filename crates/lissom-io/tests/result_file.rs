@@ -6,7 +6,7 @@ use lissom::drive::Falloff;
 use lissom::identify::{
     ConstantVelocity, Estimate, FrictionLine, Identified, LawCandidate, LawEstimates, LawTerm,
     LineShape, MissingKind, ModelTerm, NearRestEstimate, Options, RippleEstimate, RunToAdd,
-    SteadyPoint, geometry_check, identify,
+    SteadyPoint, UnusedTorque, geometry_check, identify,
 };
 use lissom::information::ArmParameter;
 use lissom::load::{GravityLoad, TorqueRipple};
@@ -95,6 +95,7 @@ fn with_directions(mut id: Identified) -> Identified {
             command: estimate,
         }],
     });
+    id.unused_torque = Some(UnusedTorque { line: 0.05, model: 0.02 });
     if let Some(law) = &mut id.friction_law {
         let terms = [
             LawTerm::NearRest { speed: 0.1, falloff: Falloff::Gaussian },
