@@ -4,7 +4,7 @@
 #![expect(clippy::unwrap_used, reason = "tests")]
 
 use lissom::identify::findings::{FindingKind, RegressionFinding};
-use lissom::identify::{Effort, Estimate, Identified, MissingKind, Options, identify};
+use lissom::identify::{Effort, Estimate, Finding, Identified, MissingKind, Options, identify};
 use lissom::record::{Axis, Campaign, Channels, Command, CommandQuantity, Hold, Run, TimeBase};
 
 const TAU: f64 = std::f64::consts::TAU;
@@ -155,6 +155,10 @@ fn friction_that_grows_with_the_motor_s_torque() {
             }
             _ => false,
         });
-        assert!(named, "{seed}: {:?}", found.findings.iter().map(|f| f.code()).collect::<Vec<_>>());
+        assert!(
+            named,
+            "{seed}: {:?}",
+            found.findings.iter().map(Finding::code).collect::<Vec<_>>()
+        );
     }
 }

@@ -30,7 +30,7 @@ pub fn plot(names: UnitNames, result: &ResultFile) -> Option<LinePlot> {
     )
     .subtitle("points: without a friction law; bars: 95 % interval; solid lines: the friction law");
     let found = |speed: f64, direction| result.friction.at(speed, direction);
-    let point = |p: &CurvePointEntry| Some((p.speed.value, given(&p.friction)?));
+    let point = |p: &CurvePointEntry| Some((p.speed.value, given(p.friction.as_ref())?));
     for (name, direction, role) in DIRECTIONS {
         let of_direction = curve.iter().filter(|p| p.direction == direction);
         let points: Vec<_> = of_direction.filter_map(point).collect();

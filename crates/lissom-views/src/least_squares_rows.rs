@@ -40,10 +40,10 @@ fn rows(names: UnitNames, fit: &LeastSquaresEntry) -> Vec<ParameterRow> {
     let torque = || names.torque_unit().to_owned();
     let gravity = fit.gravity.as_ref().map(|g| &g.amplitude);
     let all = [
-        ("Coulomb friction", COULOMB, given(&fit.coulomb.coulomb), torque()),
-        ("offset", OFFSET, given(&fit.coulomb.offset), torque()),
-        ("viscous friction", VISCOUS, given(&fit.viscous), names.viscous_unit()),
-        (names.inertia_name(), INERTIA, given(&fit.inertia), names.inertia_unit()),
+        ("Coulomb friction", COULOMB, given(fit.coulomb.coulomb.as_ref()), torque()),
+        ("offset", OFFSET, given(fit.coulomb.offset.as_ref()), torque()),
+        ("viscous friction", VISCOUS, given(fit.viscous.as_ref()), names.viscous_unit()),
+        (names.inertia_name(), INERTIA, given(fit.inertia.as_ref()), names.inertia_unit()),
         ("gravity, m·g·l", GRAVITY, gravity.map(EstimateEntry::estimate), torque()),
     ];
     let all = all.into_iter().filter(|(_, _, estimate, _)| estimate.is_some());

@@ -46,22 +46,22 @@ pub fn classical_rows(result: &ResultFile, found: &ConstantVelocityEntry) -> Vec
         known: None,
     };
     let coulomb =
-        |line: Option<&FrictionLineEntry>| Some(given(&line?.coulomb)?.scaled(per_command));
+        |line: Option<&FrictionLineEntry>| Some(given(line?.coulomb.as_ref())?.scaled(per_command));
     let viscous = |line: Option<&FrictionLineEntry>| Some(line?.viscous.estimate());
-    let both = given(&found.coulomb).map(|e| e.scaled(per_command));
+    let both = given(found.coulomb.as_ref()).map(|e| e.scaled(per_command));
     vec![
         row("Coulomb friction", both, command()),
         row("  forward", coulomb(forward), command()),
         row("  backward", coulomb(backward), command()),
-        row("viscous friction", given(&found.viscous), names.viscous_unit()),
+        row("viscous friction", given(found.viscous.as_ref()), names.viscous_unit()),
         row("  forward", viscous(forward), names.viscous_unit()),
         row("  backward", viscous(backward), names.viscous_unit()),
     ]
 }
 
 /// An estimate of a result that may be refused.
-pub(crate) fn given(entry: &Option<EstimateEntry>) -> Option<Estimate> {
-    entry.as_ref().map(EstimateEntry::estimate)
+pub(crate) fn given(entry: Option<&EstimateEntry>) -> Option<Estimate> {
+    entry.map(EstimateEntry::estimate)
 }
 
 /// All parameters of the result.
@@ -82,10 +82,10 @@ pub fn parameter_rows(
     };
     let mean = reference.map(|r| 0.5 * (r.coulomb_nm.0 + r.coulomb_nm.1));
     let coulomb = "Coulomb friction";
-    let mean_coulomb = given(&c.coulomb);
-    let forward = given(&c.forward);
-    let backward = given(&c.backward);
-    let offset = given(&c.offset);
+    let mean_coulomb = given(c.coulomb.as_ref());
+    let forward = given(c.forward.as_ref());
+    let backward = given(c.backward.as_ref());
+    let offset = given(c.offset.as_ref());
     if names.torque_known {
         let unit = names.command_unit().to_owned();
         let in_command = mean_coulomb.map(|e| e.scaled(1.0 / constant));
@@ -111,12 +111,12 @@ pub fn parameter_rows(
         add(OFFSET, "  offset, (forward − backward)/2", offset, torque(), known);
     }
     let viscous = reference.map(|r| r.viscous_nm_s_per_rad);
-    add(VISCOUS, "viscous friction", given(&f.viscous), names.viscous_unit(), viscous);
+    add(VISCOUS, "viscous friction", given(f.viscous.as_ref()), names.viscous_unit(), viscous);
     for row in f.law.iter().flat_map(|law| law_rows(names, law)) {
         add(row.key, &row.name, row.estimate, row.unit, None);
     }
     let inertia = reference.map(|r| r.inertia_kg_m2);
-    let estimate = given(&result.drive.inertia);
+    let estimate = given(result.drive.inertia.as_ref());
     add(INERTIA, names.inertia_name(), estimate, names.inertia_unit(), inertia);
     if let Some(gravity) = &result.gravity {
         let known = reference.and_then(|r| r.gravity);
@@ -125,7 +125,7 @@ pub fn parameter_rows(
         let phase = known.map(|load| load.phase_rad().to_degrees());
         let degrees = gravity.phase_rad.estimate().scaled(1.0_f64.to_degrees());
         add(GRAVITY, "  phase φ of m·g·l·sin(θ + φ)", Some(degrees), "deg".to_owned(), phase);
-        if let Some(constant) = given(&gravity.torque_constant) {
+        if let Some(constant) = given(gravity.torque_constant.as_ref()) {
             let unit = names.torque_constant_unit();
             add(GRAVITY, "  torque constant from m·g·l", Some(constant), unit, None);
         }
@@ -141,8 +141,13 @@ fn law_rows(names: UnitNames, law: &LawEntry) -> Vec<ParameterRow> {
     let mut add = |key: &'static str, name: &str, estimate, unit: String| {
         rows.push(ParameterRow { name: name.to_owned(), key, estimate, unit, known: None });
     };
-    add(COULOMB, "law of friction: Coulomb friction", given(&law.coulomb.coulomb), torque());
-    add(VISCOUS, "  viscous friction", given(&law.viscous), names.viscous_unit());
+    add(
+        COULOMB,
+        "law of friction: Coulomb friction",
+        given(law.coulomb.coulomb.as_ref()),
+        torque(),
+    );
+    add(VISCOUS, "  viscous friction", given(law.viscous.as_ref()), names.viscous_unit());
     for (name, one_way) in [
         ("  viscous friction forward", &law.viscous_forward),
         ("  viscous friction backward", &law.viscous_backward),
@@ -152,9 +157,9 @@ fn law_rows(names: UnitNames, law: &LawEntry) -> Vec<ParameterRow> {
     }
     let terms = &law.terms;
     if let Some(near) = &terms.near_rest
-        && let Some(amplitude) = given(&near.amplitude)
+        && let Some(amplitude) = given(near.amplitude.as_ref())
     {
-        if let Some(at_rest) = given(&near.static_friction) {
+        if let Some(at_rest) = given(near.static_friction.as_ref()) {
             add(COULOMB, "  static friction", Some(at_rest), torque());
         }
         let (change, size) = if amplitude.value < 0.0 { ("lower", -1.0) } else { ("higher", 1.0) };
@@ -175,7 +180,7 @@ fn law_rows(names: UnitNames, law: &LawEntry) -> Vec<ParameterRow> {
     {
         for ripple in ripples {
             let period = Some(ripple.period.estimate());
-            add(COULOMB, name, given(&ripple.amplitude), torque());
+            add(COULOMB, name, given(ripple.amplitude.as_ref()), torque());
             add(COULOMB, "    period", period, names.angle().to_owned());
         }
     }
@@ -193,7 +198,7 @@ fn beam_rows(
     let mut add = |key: &'static str, name: &str, estimate, unit: String, known: Option<f64>| {
         rows.push(ParameterRow { name: name.to_owned(), key, estimate, unit, known });
     };
-    let coupling = given(&result.beam.coupling);
+    let coupling = given(result.beam.coupling.as_ref());
     if !result.beam.coupling_by_tip.is_empty() || coupling.is_some() {
         let known = arm.map(|a| a.dynamics().coupling_motor);
         add(COUPLING, "coupling to the beam", coupling, names.coupling_unit(), known);

@@ -39,7 +39,7 @@ pub fn friction_plot(names: UnitNames, result: &ResultFile) -> Option<LinePlot> 
         let Some(line) = found.lines.iter().find(|line| line.direction == direction) else {
             continue;
         };
-        let Some(coulomb) = given(&line.coulomb) else { continue };
+        let Some(coulomb) = given(line.coulomb.as_ref()) else { continue };
         let slope = line.viscous.value + back_emf;
         let at = |v: f64| (coulomb.value + slope * v) / constant;
         let rest = coulomb.scaled(1.0 / constant);
@@ -49,7 +49,7 @@ pub fn friction_plot(names: UnitNames, result: &ResultFile) -> Option<LinePlot> 
         lines.push(through);
         lines.push(Trace::new(label, role, TraceStyle::Dashes, vec![0.0, slowest], to_rest));
         if let (LineShapeName::Concave | LineShapeName::Convex, Some(slow)) =
-            (line.shape, given(&line.slowest))
+            (line.shape, given(line.slowest.as_ref()))
         {
             bent.push(slow.scaled(1.0 / constant));
         }
@@ -99,7 +99,7 @@ pub(crate) fn in_torque(result: &ResultFile) -> Option<[FrictionOfDirection; 2]>
         let fastest = speed.iter().fold(0.0_f64, |most, v| most.max(*v));
         let line = found.lines.iter().find(|line| line.direction == direction);
         let line = line.and_then(|line| {
-            let (coulomb, viscous) = (given(&line.coulomb)?, &line.viscous);
+            let (coulomb, viscous) = (given(line.coulomb.as_ref())?, &line.viscous);
             let at = |v: f64| (v, viscous.value.mul_add(v, coulomb.value));
             Some([at(0.0), at(fastest)])
         });

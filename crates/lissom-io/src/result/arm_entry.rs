@@ -118,10 +118,10 @@ impl ArmEntry {
             offset: a.offset_nm,
             terms: ArmTermsEntry::of(&a.dry_terms),
             gravity: a.gravity.map(|g| ArmGravityEntry { sine: g.sine_nm, cosine: g.cosine_nm }),
-            torque_ripples: a.torque_ripples.iter().map(|r| ArmTorqueRippleEntry::of(r)).collect(),
+            torque_ripples: a.torque_ripples.iter().map(ArmTorqueRippleEntry::of).collect(),
             command_lag_s: a.command_lag_s,
             command_is_filtered: found.lag_shape == LagShape::Filter,
-            modes: a.modes.iter().map(|m| OscillatorEntry::of(m)).collect(),
+            modes: a.modes.iter().map(OscillatorEntry::of).collect(),
             coupling_by_tip: Some(found.coupling_alone_nm_per_rad.clone())
                 .filter(|c| !c.is_empty()),
             tips: channels.tips.iter().zip(&a.shapes).enumerate().map(tip).collect(),
@@ -134,7 +134,7 @@ impl ArmEntry {
     /// The arm of this entry, for logs with the units of `names`.
     pub(crate) fn found(&self, names: UnitNames) -> Result<FoundArm, WrongKey> {
         let number = Numbers { at: "arm" };
-        let modes = self.modes.iter().map(|m| m.oscillator());
+        let modes = self.modes.iter().map(OscillatorEntry::oscillator);
         let modes = modes.collect::<Result<Vec<_>, _>>()?;
         let points = self.damping_at_points_per_s.len();
         if points != 0 && points != modes.len() {
@@ -165,7 +165,7 @@ impl ArmEntry {
             let cosine_nm = number.sane("cosine", g.cosine)?;
             Ok(GravityLoad { sine_nm, cosine_nm })
         });
-        let ripples = self.torque_ripples.iter().map(|r| r.torque_ripple());
+        let ripples = self.torque_ripples.iter().map(ArmTorqueRippleEntry::torque_ripple);
         let arm = ModalArm {
             inertia_kg_m2: number.positive("inertia", self.inertia)?,
             viscous_nm_s_per_rad: [

@@ -227,7 +227,7 @@ impl ArmTermsEntry {
     pub(super) fn of(terms: &DryTerms) -> Self {
         Self {
             near_rest: terms.near_rest.map(|n| ArmNearRestEntry::of(&n)),
-            ripples: terms.ripples.iter().map(|r| ArmRippleEntry::of(r)).collect(),
+            ripples: terms.ripples.iter().map(ArmRippleEntry::of).collect(),
             root: terms.root.map(|root| ArmRootEntry { amplitude: root.torque_nm_per_root_rad_s }),
             with_load: terms.with_load.map(|term| ArmWithLoadEntry {
                 coefficient: term.coefficient,
@@ -240,9 +240,9 @@ impl ArmTermsEntry {
     pub(super) fn dry_terms(&self) -> Result<DryTerms, WrongKey> {
         let ripples = self.ripples.iter().map(|r| r.ripple("arm.ripples[]"));
         Ok(DryTerms {
-            root: self.root.as_ref().map(|r| r.root()).transpose()?,
-            with_load: self.with_load.as_ref().map(|l| l.with_load()).transpose()?,
-            near_rest: self.near_rest.as_ref().map(|n| n.near_rest()).transpose()?,
+            root: self.root.as_ref().map(ArmRootEntry::root).transpose()?,
+            with_load: self.with_load.as_ref().map(ArmWithLoadEntry::with_load).transpose()?,
+            near_rest: self.near_rest.as_ref().map(ArmNearRestEntry::near_rest).transpose()?,
             ripples: ripples.collect::<Result<_, _>>()?,
         })
     }

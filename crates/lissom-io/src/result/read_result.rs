@@ -229,52 +229,28 @@ impl<'a> Listing<'a> {
         let id = (&*at("viscous"), "viscous friction of the law", &*viscous);
         self.add(id, law.viscous.as_ref(), &[VISCOUS]);
         let terms = &law.terms;
-        let near = terms.near_rest.as_ref();
         // What is not there refuses nothing.
-        let one_by_one: [(&str, &str, &str, Option<&EstimateEntry>, &[&str]); 7] = [
-            (
-                "viscous_forward",
-                "viscous friction forward",
-                &viscous,
-                law.viscous_forward.as_ref(),
-                &[VISCOUS],
-            ),
-            (
-                "viscous_backward",
-                "viscous friction backward",
-                &viscous,
-                law.viscous_backward.as_ref(),
-                &[VISCOUS],
-            ),
-            (
-                "near_rest.static_friction",
-                "static friction",
-                torque,
-                near.and_then(|n| n.static_friction.as_ref()),
-                &[COULOMB],
-            ),
-            (
-                "near_rest.amplitude",
-                "friction near rest",
-                torque,
-                near.and_then(|n| n.amplitude.as_ref()),
-                &[COULOMB],
-            ),
-            (
-                "near_rest.speed",
-                "friction near rest speed",
-                &speed,
-                near.map(|n| &n.speed),
-                &[COULOMB],
-            ),
-            ("root", "friction per root of speed", &root, terms.root.as_ref(), &[COULOMB, VISCOUS]),
-            ("with_load", "friction per load", "1", terms.with_load.as_ref(), &[COULOMB]),
-        ];
-        for (key, name, unit, estimate, affected) in one_by_one {
-            if estimate.is_some() {
-                self.add((&at(key), name, unit), estimate, affected);
+        let mut given = |key: &str, name: &str, unit: &str, found: Option<&EstimateEntry>| {
+            let affected: &[&str] = match key {
+                "root" => &[COULOMB, VISCOUS],
+                _ if key.starts_with("viscous") => &[VISCOUS],
+                _ => &[COULOMB],
+            };
+            if found.is_some() {
+                self.add((&at(key), name, unit), found, affected);
             }
+        };
+        let (forward, backward) = (law.viscous_forward.as_ref(), law.viscous_backward.as_ref());
+        given("viscous_forward", "viscous friction forward", &viscous, forward);
+        given("viscous_backward", "viscous friction backward", &viscous, backward);
+        if let Some(near) = &terms.near_rest {
+            let at_rest = near.static_friction.as_ref();
+            given("near_rest.static_friction", "static friction", torque, at_rest);
+            given("near_rest.amplitude", "friction near rest", torque, near.amplitude.as_ref());
+            given("near_rest.speed", "friction near rest speed", &speed, Some(&near.speed));
         }
+        given("root", "friction per root of speed", &root, terms.root.as_ref());
+        given("with_load", "friction per load", "1", terms.with_load.as_ref());
         for (list, what, ripples) in [
             ("ripples", "ripple", &terms.ripples),
             ("torque_ripples", "torque ripple", &terms.torque_ripples),

@@ -228,13 +228,11 @@ pub(crate) fn friction_law(
         // Beside what varies over less than a long window.
         let sampled = short.sampled();
         let found = Found::of(&sampled, false)?;
-        match found.lag(&short) {
-            Some(lag) => lag,
-            None => {
-                let line = found.search.left_out_by_line()?;
-                return found.law(&sampled, None, possible, line);
-            }
-        }
+        let Some(lag) = found.lag(&short) else {
+            let line = found.search.left_out_by_line()?;
+            return found.law(&sampled, None, possible, line);
+        };
+        lag
     };
     let in_time = short.sampled();
     let late = lag.late(campaign);
