@@ -41,7 +41,7 @@ omega = np.geomspace(0.3, 60.0, 50)
 wanted = np.polyval(models["motor"]["num"], 1j * omega) / np.polyval(models["motor"]["den"], 1j * omega)
 for name, found in [("tf", script["motor"](1j * omega)), ("ss", script["arm"](1j * omega)[0, 0])]:
     near(f"python-control {name}", 1 + np.max(np.abs(found / wanted - 1)), 1.0, 1e-8)
-near("python-control friction", script["friction"](1.0), arm["coulomb_nm"] + arm["offset_nm"], 1e-9)
+near("python-control friction", script["friction"](1.0), arm["coulomb"] + arm["offset"], 1e-9)
 
 # scipy.io
 mat = scipy.io.loadmat(export("mat", "arm.mat"), simplify_cells=True)["lissom"]
@@ -66,14 +66,14 @@ def held_speed(command, seconds):
     return data.qvel[0]
 
 
-low, high = 0.0, 2 * arm["coulomb_nm"] / result["torque_per_command"]
+low, high = 0.0, 2 * arm["coulomb"] / result["torque_per_command"]
 for _ in range(12):
     middle = 0.5 * (low + high)
     low, high = (middle, high) if abs(held_speed(middle, 0.5)) < 1e-3 else (low, middle)
-near("MuJoCo friction", 0.5 * (low + high) * result["torque_per_command"], arm["coulomb_nm"], 0.02)
+near("MuJoCo friction", 0.5 * (low + high) * result["torque_per_command"], arm["coulomb"], 0.02)
 
 mujoco.mj_resetData(model, data)
-data.qpos[1] = 0.05 * arm["coulomb_nm"] / mode["stiffness_nm_per_rad"] * 10
+data.qpos[1] = 0.05 * arm["coulomb"] / mode["stiffness"] * 10
 angle = []
 for _ in range(int(8.0 / step)):
     mujoco.mj_step(model, data)

@@ -69,7 +69,7 @@ def truth(e):
 def found(path):
     result = json.loads(path.read_text())
     modes = result["beam"]["modes"]
-    figures = [result["friction"]["coulomb_nm"], result["drive"]["inertia_kg_m2"], modes[0]["natural_frequency_rad_s"]]
+    figures = [result["friction"]["coulomb"], result["drive"]["inertia"], modes[0]["natural_frequency_rad_s"]]
     return dict(zip(BOUNDS, figures))
 
 

@@ -199,12 +199,12 @@ def errors(case, found):
 def lissom_estimates(path):
     result = json.loads(path.read_text())
     estimates = {
-        "inertia": result["drive"]["inertia_kg_m2"],
-        "viscous": result["friction"]["viscous_nm_s_per_rad"],
-        "coulomb": result["friction"]["coulomb_nm"],
+        "inertia": result["drive"]["inertia"],
+        "viscous": result["friction"]["viscous"],
+        "coulomb": result["friction"]["coulomb"],
     }
     if result.get("gravity"):
-        estimates["gravity"] = result["gravity"]["amplitude_nm"]
+        estimates["gravity"] = result["gravity"]["amplitude"]
     return {name: estimate["value"] for name, estimate in estimates.items()}
 
 
