@@ -87,7 +87,7 @@ def test_rows_are_the_results_of_the_logs(folder: Path, tmp_path: Path) -> None:
     frame = fleet.to_frame()
     assert len(frame) == fleet.rows and str(frame["time"].dt.tz) == "UTC"
     read = pd.concat([pd.read_parquet(file) for file in fleet.files])
-    assert np.array_equal(read["friction.coulomb"], fleet["friction.coulomb"])
+    assert np.array_equal(read["friction.coulomb [N·m]"], fleet["friction.coulomb"])
     with pytest.raises(lissom.InputError, match="is not a log of this fleet"):
         fleet.result("other.csv")
 
@@ -106,7 +106,7 @@ def test_command_writes_the_same_rows(folder: Path, tmp_path: Path) -> None:
     summary.report(page)
     assert b"friction.coulomb" in page.read_bytes()
     assert summary.machines == MACHINES and summary.identified == MACHINES * LOGS
-    assert "friction.coulomb: median" in repr(summary)
+    assert "friction.coulomb [N·m]: median" in repr(summary)
 
 
 def test_executors(folder: Path, tmp_path: Path) -> None:

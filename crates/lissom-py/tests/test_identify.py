@@ -25,7 +25,7 @@ def test_the_parameters_are_those_that_were_simulated(result: lissom.Result) -> 
     for key, value in truth.items():
         found = result[key]
         assert found is not None and abs(found / value - 1) < 2e-3, key
-        assert 0 < found.std < 1e-3 * value and found.ci95[0] < found < found.ci95[1]
+        assert 0 < found.std < 3e-3 * value and found.ci95[0] < found < found.ci95[1]
 
 
 def written(folder: Path, logs: dict[str, dict[str, Any]]) -> Path:
