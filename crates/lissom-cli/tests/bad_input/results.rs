@@ -11,7 +11,7 @@ fn result(axis: &str, constant: &str, unit: &str) -> String {
 fn with_friction(axis: &str, constant: &str, unit: &str, friction: &str) -> String {
     format!(
         r#"{{"lissom": "0.1.0", "axis": "{axis}", "torque_per_command": {constant}, "command_unit": "{unit}", "from": null,
-            "friction": {{{friction}, "curve": []}}, "drive": {{}}, "beam": {{"modes": []}}, "runs": [],
+            "friction": {{{friction}, "curve": []}}, "drive": {{}}, "beam": {{"modes": [], "coupling_by_tip": []}}, "runs": [],
             "findings": []}}"#
     )
 }
