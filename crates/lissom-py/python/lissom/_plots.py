@@ -15,7 +15,6 @@ if TYPE_CHECKING:
     from matplotlib.axes import Axes  # type: ignore[import-not-found,unused-ignore]
 
     from ._campaign import Campaign
-    from ._estimate import Estimate
     from ._validation import Validation
 
 _RAW, _CORRECTED, _MODEL = "0.6", "C0", "C3"
@@ -39,10 +38,6 @@ class Plotted(Protocol):
     @property
     def response_vouched_for(self) -> NDArray[np.bool_]:
         """Whether they are corrected with confidence."""
-
-    @property
-    def friction(self) -> Mapping[str, Estimate | None]:
-        """Friction."""
 
     def to_dict(self) -> dict[str, Any]:
         """Everything else."""
