@@ -51,7 +51,6 @@ pub mod equivalent_section;
 pub mod fleet_page;
 pub mod friction_curve;
 pub mod known_arm;
-pub mod least_squares_rows;
 mod named_figure;
 mod own_logs;
 pub mod page_figures;

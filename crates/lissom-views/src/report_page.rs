@@ -13,7 +13,6 @@ use lissom_report::{
 
 use crate::digits::counted;
 use crate::known_arm::Reference;
-use crate::least_squares_rows::least_squares_rows;
 use crate::parameter_rows::{KNOWN_DIGITS, ParameterRow, classical_rows, parameter_rows};
 use crate::program_hints::ProgramHints;
 use crate::run_table::run_table;
@@ -64,13 +63,6 @@ pub fn page(title: &str, content: PageContent<'_>) -> Page {
         "Drive and beam; 0.1320(12) means 0.1320 ± 0.0012",
         &key_figures(result, rows, reference),
     );
-    if let Some(found) = least_squares_rows(names, result) {
-        let figures: Vec<KeyFigure> =
-            found.rows.into_iter().map(|row| key_figure(row, String::new())).collect();
-        page = page
-            .key_figures("For tools that know one Coulomb and one viscous friction only", &figures)
-            .paragraph(&format!("By {}.", found.words));
-    }
     if let Some(words) = unused_torque_words(result) {
         page = page.paragraph(&format!("Unused {words}."));
     }

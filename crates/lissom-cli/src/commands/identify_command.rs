@@ -88,7 +88,6 @@ pub(crate) fn run(args: &IdentifyArgs) -> Result<ExitCode, Failure> {
             printer::line(&words);
         }
         parameter_table::speeds_of_law(names, &id);
-        parameter_table::line_of_least_squares(names, &result);
         parameter_table::constant_velocity(&result);
         if let Some(found) = &result.equivalent {
             equivalent_table::brief(names, found);

@@ -6,7 +6,6 @@ use lissom_io::{ResultFile, UnitNames};
 use lissom_report::{interval, significant, with_uncertainty};
 use lissom_views::digits::counted;
 use lissom_views::known_arm::Reference;
-use lissom_views::least_squares_rows::least_squares_rows;
 use lissom_views::parameter_rows::{KNOWN_DIGITS, classical_rows, parameter_rows};
 
 use super::printer::{line, table};
@@ -38,20 +37,6 @@ pub(crate) fn parameters(names: UnitNames, result: &ResultFile, reference: Optio
             if per_command == "N" { "kg" } else { "kg·m²" }
         ));
     }
-}
-
-/// Prints ordinary least squares with Coulomb and viscous friction, if the result has another friction law.
-pub(crate) fn line_of_least_squares(names: UnitNames, result: &ResultFile) {
-    let Some(found) = least_squares_rows(names, result) else { return };
-    let mut rows = vec![["least squares", "value", "unit", "95 % interval"].map(str::to_owned)];
-    rows.extend(found.rows.into_iter().filter_map(|row| {
-        let e = row.estimate?;
-        let within = interval(e.ci95(), e.value, e.std);
-        Some([row.name, with_uncertainty(e.value, e.std), row.unit, within])
-    }));
-    line("");
-    table(&rows.into_iter().map(Vec::from).collect::<Vec<_>>());
-    line(&found.words);
 }
 
 /// Prints the speeds for which the friction law and the friction curve hold, if the result has such a law.

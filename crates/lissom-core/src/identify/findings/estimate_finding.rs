@@ -4,6 +4,7 @@ use std::fmt;
 
 use strum::{IntoStaticStr, VariantNames};
 
+use crate::identify::drive_estimates::Method;
 use crate::identify::estimate::Estimate;
 use crate::identify::findings::describe::Describe;
 use crate::identify::findings::number_text::{minus, significant, with_error};
@@ -146,6 +147,13 @@ pub enum EstimateFinding {
         /// Units of both.
         units: EstimateUnits,
     },
+    /// The model that predicts best leaves a parameter unknown; the line is given.
+    LineTaken {
+        /// The parameter.
+        parameter: JudgedParameter,
+        /// The method that leaves it unknown.
+        refused_by: Method,
+    },
     /// Inertia and Coulomb friction are both negative.
     CommandSign,
     /// The torque constant is unknown.
@@ -236,6 +244,12 @@ impl fmt::Display for EstimateFinding {
                 significant(*friction, 3),
                 units.torque()
             ),
+            Self::LineTaken { parameter, refused_by } => write!(
+                f,
+                "{} is unknown by {}: the line of Coulomb and viscous friction is given in its place",
+                parameter.name(),
+                refused_by.words()
+            ),
             Self::CommandSign => f.write_str(
                 "inertia and Coulomb friction are both negative: the command and the motor's angle have opposite signs, and \
                  no estimate is given",
@@ -313,6 +327,7 @@ impl Describe for EstimateFinding {
         match self {
             Self::PoorExcitation { refused: false, .. }
             | Self::OthersDoubtful
+            | Self::LineTaken { .. }
             | Self::MethodsDisagree { .. } => Severity::Warning,
             Self::PoorExcitation { .. }
             | Self::NotSeparable { .. }
@@ -336,7 +351,7 @@ impl Describe for EstimateFinding {
             | Self::NegativeEstimate { parameter, .. } => parameter.keys(),
             Self::FrictionWithLoad { .. } => vec![key::COULOMB, key::OFFSET],
             Self::OthersDoubtful => vec![key::COULOMB, key::VISCOUS, key::INERTIA, key::COUPLING],
-            Self::CommandSign | Self::PerUnitOfCommand => {
+            Self::LineTaken { .. } | Self::CommandSign | Self::PerUnitOfCommand => {
                 vec![key::COULOMB, key::VISCOUS, key::INERTIA]
             }
             Self::FrictionFalls { .. } | Self::CommandNotMeasured => {
@@ -359,7 +374,8 @@ impl Describe for EstimateFinding {
         match self {
             Self::NotSeparable { parameter }
             | Self::PoorExcitation { parameter, .. }
-            | Self::NegativeEstimate { parameter, .. } => parameter.hint(),
+            | Self::NegativeEstimate { parameter, .. }
+            | Self::LineTaken { parameter, .. } => parameter.hint(),
             Self::FrictionWithLoad { .. } => "add a run that turns the other way",
             Self::OthersDoubtful => {
                 "check signs and units, and what else acts on the axis: the equation does not describe these runs"

@@ -22,16 +22,16 @@ pub(crate) fn conclude(evidence: &Evidence<'_>, mut findings: Vec<Finding>) -> C
     let reversed = reversed_command(evidence);
     findings.extend(reversed.then(|| Finding::new(EstimateFinding::CommandSign)));
     findings.extend(output_error::findings(evidence));
-    let (method, solution) = drive_table::choose(evidence);
-    let mut beam = beam_choice::choose(evidence, &solution);
-    let mut drive = solution.clone();
-    if reversed {
+    let mut chosen = Chosen::of(evidence, drive_table::choose(evidence));
+    let refused = if reversed {
         // No torque is right, and none needs a refusal of its own.
-        drive = DriveEstimates::default();
-        beam.coupling = None;
-        beam.coupling_by_tip.fill(None);
-    }
-    let mut chosen = Chosen { method, solution, drive, beam };
+        chosen.drive = DriveEstimates::default();
+        chosen.beam.coupling = None;
+        chosen.beam.coupling_by_tip.fill(None);
+        Vec::new()
+    } else {
+        unknown::refuse_or_take_line(evidence, &mut chosen)
+    };
     let alone = evidence.rests_on_constant_velocities();
     findings.extend(lag_of_response(evidence, &chosen));
     if alone {
@@ -39,9 +39,7 @@ pub(crate) fn conclude(evidence: &Evidence<'_>, mut findings: Vec<Finding>) -> C
     }
     findings.extend(constant_velocity::taken(evidence, &chosen));
     findings.extend(beam_choice::findings(evidence, &chosen.beam));
-    if !reversed {
-        findings.extend(unknown::refuse_the_unknown(evidence, &mut chosen));
-    }
+    findings.extend(refused);
     findings.extend(remarks::of_friction(evidence, &chosen));
     findings.extend(friction_law::finding(evidence, &chosen));
     if !alone {

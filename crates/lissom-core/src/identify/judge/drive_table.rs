@@ -8,7 +8,6 @@ use crate::identify::judge::thresholds::{BEATEN_FACTOR, BEATEN_SHARE, MODEL_MISF
 use crate::identify::methods::friction_law::FrictionLaw;
 use crate::identify::methods::regression::{MotorRegression, Terms, coupled_tips};
 use crate::identify::responses::rational::MotorFit;
-use crate::identify::thresholds::UNEXPLAINED_TORQUE;
 
 /// A method in the order of trust: the first that offers a solution which nothing speaks against is taken, whole.
 pub(super) struct Row {
@@ -46,6 +45,19 @@ pub(super) const DRIVE: [Row; 9] = [
 pub(super) fn choose(evidence: &Evidence<'_>) -> (Option<Method>, DriveEstimates) {
     let offered = |row: &Row| Some((Some(row.method), (row.solution)(evidence)?));
     DRIVE.iter().find_map(offered).unwrap_or_default()
+}
+
+/// The line where another method's solution is refused: by slip phases, and by all motion. `method` is that method.
+pub(super) fn lines(
+    evidence: &Evidence<'_>,
+    method: Method,
+) -> impl Iterator<Item = (Option<Method>, DriveEstimates)> {
+    let by_phases = evidence.methods.regression.as_ref();
+    let by_phases = by_phases.filter(|_| method != Method::Regression);
+    let by_all = evidence.methods.least_squares.as_ref().filter(|fit| fit.describes_torque());
+    let by_all = by_all.filter(|_| !evidence.rests_on_constant_velocities());
+    let by_phases = by_phases.map(|r| (Some(Method::Regression), r.estimates()));
+    by_phases.into_iter().chain(by_all.map(|fit| (Some(Method::LeastSquares), fit.estimates.clone())))
 }
 
 /// The best solution of slip phases alone: that with a law, or with one viscous coefficient.
@@ -135,7 +147,7 @@ fn by_least_squares(evidence: &Evidence<'_>) -> Option<DriveEstimates> {
     // Transitions between constant velocities are short: what they show is not worth more than the velocities.
     let missing = evidence.methods.regression.is_none() && !evidence.rests_on_constant_velocities();
     let needed = missing || is_beaten(evidence);
-    let sound = fit.relative_residual < UNEXPLAINED_TORQUE
+    let sound = fit.describes_torque()
         && fit.estimates.inertia.is_some_and(is_known)
         && fit.estimates.friction.coulomb.is_some_and(is_known);
     (needed && sound).then(|| fit.estimates.clone())

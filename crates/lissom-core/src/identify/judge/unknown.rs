@@ -1,12 +1,45 @@
 //! Estimates that the data do not support are taken back.
 
+use crate::identify::drive_estimates::Method;
 use crate::identify::estimate::Estimate;
 use crate::identify::findings::{EstimateFinding, EstimateUnits, Finding, JudgedParameter};
+use crate::identify::judge::drive_table;
 use crate::identify::judge::evidence::{Chosen, Evidence};
 use crate::identify::judge::thresholds::{REFUSED_ERROR, UNCERTAIN_ERROR};
 
+/// Takes back what the data do not support; the line is taken where it is known and the model of the table is not, unless that is
+/// the arm of the output-error method.
+pub(super) fn refuse_or_take_line(evidence: &Evidence<'_>, chosen: &mut Chosen) -> Vec<Finding> {
+    let refused = refuse_the_unknown(evidence, chosen);
+    let method = chosen.method.filter(|method| *method != Method::OutputError);
+    let Some((method, parameter)) = method.zip(refused_parameter(chosen)) else {
+        return refused;
+    };
+    for line in drive_table::lines(evidence, method) {
+        let mut by_line = Chosen::of(evidence, line);
+        let doubts = refuse_the_unknown(evidence, &mut by_line);
+        if refused_parameter(&by_line).is_none() {
+            *chosen = by_line;
+            let taken = EstimateFinding::LineTaken { parameter, refused_by: method };
+            return doubts.into_iter().chain([Finding::new(taken)]).collect();
+        }
+    }
+    refused
+}
+
+/// The first parameter of the line that a solution does not give.
+fn refused_parameter(chosen: &Chosen) -> Option<JudgedParameter> {
+    let Chosen { drive, .. } = chosen;
+    let given = [
+        (JudgedParameter::Inertia, drive.inertia),
+        (JudgedParameter::Coulomb, drive.friction.coulomb),
+        (JudgedParameter::Viscous, drive.friction.viscous),
+    ];
+    given.into_iter().find(|(_, e)| e.is_none()).map(|(parameter, _)| parameter)
+}
+
 /// Estimates that are not known to their own size are taken back.
-pub(super) fn refuse_the_unknown(evidence: &Evidence<'_>, chosen: &mut Chosen) -> Vec<Finding> {
+fn refuse_the_unknown(evidence: &Evidence<'_>, chosen: &mut Chosen) -> Vec<Finding> {
     let mut findings = Vec::new();
     let regression = evidence.methods.regression.is_some();
     let Chosen { drive, beam, .. } = chosen;

@@ -15,6 +15,7 @@ use crate::identify::methods::regression::{
 use crate::identify::methods::thresholds::{SLOWEST_SAMPLE, STANDING_SHARE};
 use crate::identify::prepare::prepared::Prepared;
 use crate::identify::prepare::run_noise::RunNoise;
+use crate::identify::thresholds::UNEXPLAINED_TORQUE;
 use crate::record::{Campaign, Run};
 
 /// Estimates of the motor's equation by ordinary least squares.
@@ -106,6 +107,11 @@ pub fn least_squares(prepared: &Prepared<'_>, window_s: Option<f64>) -> Option<L
 }
 
 impl LeastSquares {
+    /// Whether it leaves little of the torque.
+    pub(crate) fn describes_torque(&self) -> bool {
+        self.relative_residual < UNEXPLAINED_TORQUE
+    }
+
     /// Relative residual of the windowed torque with other estimates of the same equation. `None` if one of the estimates is missing.
     pub fn left_by(&self, other: &DriveEstimates) -> Option<f64> {
         let friction = &other.friction;

@@ -11,8 +11,8 @@ use crate::identify::thresholds::{LAG_HALF_SAMPLE, SIGN_SHOWN};
 use crate::record::Hold;
 
 impl Search<'_> {
-    /// Whether a joint may have such a model: friction brakes at rest and at speed, no more than the logs contain, the inertia is
-    /// positive, and a lag is not longer than a drive's.
+    /// Whether a joint may have such a model: friction brakes at rest and at speed, Coulomb friction and its standard error are
+    /// less than the largest torque, the inertia is positive, and a lag is not longer than a drive's.
     pub(super) fn is_possible(&self, solution: &Solution, terms: &[&Candidate]) -> bool {
         let n = solution.value.len();
         let not_negative = |weight: &DVector<f64>| {
@@ -53,6 +53,7 @@ impl Search<'_> {
             && solution.value[PLACE_INERTIA] > 0.0
             && solution.value[PLACE_COULOMB] < self.largest_torque
             && not_negative(&viscous)
+            && known(solution, &least).1 < self.largest_torque
             && not_negative(&least)
             && not_negative(&at_rest)
     }
