@@ -60,7 +60,6 @@ fn start(campaign: &Campaign, omega_rad_s: &[Option<f64>]) -> OutputErrorStart {
         arms,
         omega_rad_s: omega_rad_s.to_vec(),
         first_window_s: None,
-        law: Vec::new(),
     }
 }
 

@@ -110,7 +110,6 @@ fn a_mode_that_is_none_goes() {
         arms: vec![arm],
         omega_rad_s: vec![None; campaign.runs.len()],
         first_window_s: None,
-        law: Vec::new(),
     };
     let found = output_error(&Prepared::of(&campaign), &start).unwrap();
     assert!(found.arm.modes.is_empty(), "{:?}", found.arm.modes);

@@ -83,7 +83,6 @@ fn from(campaign: &Campaign, sines_rad_s: &[f64], arm: ModalArm) -> OutputError 
         arms: vec![arm],
         omega_rad_s: sines_rad_s.iter().map(|omega| Some(*omega)).collect(),
         first_window_s: None,
-        law: Vec::new(),
     };
     output_error(&Prepared::of(campaign), &start).unwrap()
 }

@@ -234,8 +234,7 @@ fn is_law_alarm(finding: &Finding) -> bool {
         // No alarm if the estimates are those of the law.
         FindingKind::FrictionLaw(FrictionLawFinding::FrictionLaw { source, .. }) => !matches!(
             source,
-            LawSource::OutputError { negligible: true, .. }
-                | LawSource::SlipPhases { replayed_without: true, .. }
+            LawSource::SlipPhases { replayed_without: true, .. }
         ),
         _ => false,
     };

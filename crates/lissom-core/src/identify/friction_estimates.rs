@@ -3,7 +3,6 @@
 use crate::drive::Falloff;
 use crate::friction::Root;
 use crate::identify::estimate::Estimate;
-use crate::identify::methods::friction_law::thresholds::NEGLIGIBLE_TERM;
 use crate::identify::methods::friction_law::{LawTerm, NEAR_REST_STEP};
 use crate::identify::thresholds::SIGN_SHOWN;
 use crate::replay::{DryTerms, FrictionNumber, NearRestNumber};
@@ -75,21 +74,6 @@ impl Friction {
         let root = law.root.map_or(0.0, |r| r.value * Root::growth(speed));
         Some(one_way(law.forward, law.backward)?.value + viscous.value * speed + near + root)
     }
-
-    /// Whether a term changes this friction by less than [`NEGLIGIBLE_TERM`].
-    pub(crate) fn hardly_has(&self, (term, amplitude): &(LawTerm, Vec<Estimate>)) -> bool {
-        let of = match term {
-            LawTerm::ViscousByDirection => self.viscous,
-            LawTerm::NearRest { .. } | LawTerm::Ripple { .. } | LawTerm::TorqueRipple { .. } => {
-                self.coulomb
-            }
-            // Never taken for that little.
-            LawTerm::Root | LawTerm::WithLoad { .. } => None,
-            LawTerm::CommandLag => return true,
-        };
-        let largest = amplitude.iter().take(2).map(|a| a.value.abs()).fold(0.0, f64::max);
-        of.is_some_and(|of| largest < NEGLIGIBLE_TERM * of.value)
-    }
 }
 
 impl LawEstimates {
@@ -111,7 +95,9 @@ impl LawEstimates {
             per_angle: any(&|terms| terms.ripples[i].per_rad),
         };
         let ripples = (0..terms.ripples.len()).map(ripple).collect();
-        Self { near_rest, ripples, ..Self::default() }
+        let root = number(FrictionNumber::Root);
+        let with_load = number(FrictionNumber::WithLoad);
+        Self { near_rest, root, with_load, ripples, ..Self::default() }
     }
 
     /// The same of the terms of a law with their amplitudes; `at_rest` is friction at rest.
@@ -165,7 +151,8 @@ impl LawEstimates {
         });
         let ripple =
             |r: &RippleEstimate| (LawTerm::Ripple { per_angle: r.per_angle.value }, vec![r.torque]);
-        near.chain(self.ripples.iter().map(ripple)).collect()
+        let root = self.root.map(|root| (LawTerm::Root, vec![root]));
+        near.chain(root).chain(self.ripples.iter().map(ripple)).collect()
     }
 }
 

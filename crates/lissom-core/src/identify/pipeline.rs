@@ -8,7 +8,7 @@ use crate::identify::findings::{EquivalentFinding, EstimateUnits, Finding, Regre
 use crate::identify::identified::Identified;
 use crate::identify::judge::{Evidence, Methods, conclude, slip_phase_solution, slip_phase_terms};
 use crate::identify::methods::constant_velocity;
-use crate::identify::methods::friction_law::{FrictionLaw, friction_law, mode_predicts_better};
+use crate::identify::methods::friction_law::{friction_law, predicts_better};
 use crate::identify::methods::least_squares::least_squares;
 use crate::identify::methods::output_error::thresholds::COMMAND_NOISE_MOST;
 use crate::identify::methods::output_error::{
@@ -19,7 +19,7 @@ use crate::identify::methods::regression::{
     BeamRegression, MotorRegression, beam_regression, other_hold,
 };
 use crate::identify::methods::rigid_equation::rigid_equation;
-use crate::identify::methods::starting_arms::starting_arms;
+use crate::identify::methods::starting_arms::{starting_arms, with_law};
 use crate::identify::methods::third_harmonic::{ThirdHarmonic, third_harmonic};
 use crate::identify::methods::unlike_runs::regression_of_like_runs;
 use crate::identify::options::{Effort, Options};
@@ -143,7 +143,7 @@ pub fn identify(
     progress(Stage::Beam);
     if let Some(rigid) = &any_regression
         && let Some(flexible) = &rigid.with_mode
-        && mode_predicts_better(&prepared, rigid, flexible)
+        && predicts_better((&prepared, flexible), (&prepared, rigid))
     {
         let (left_out, beside_others) = (rigid.left_out.clone(), rigid.beside_others.clone());
         any_regression = Some(MotorRegression { left_out, beside_others, ..(**flexible).clone() });
@@ -189,7 +189,8 @@ pub fn identify(
         let lag_s = delay.map_or(0.0, |lag| lag.time_s);
         let known = (&drive, &motor, lag_s);
         let arms = starting_arms(replayed.used(), known, beam, tips, &shown, corrected);
-        let found = output_error(replayed, &start_of(replayed, options, arms, (&motor, law)))?;
+        let arms = with_law(law.map(|law| &law.chosen), arms, replayed.used());
+        let found = output_error(replayed, &start_of(replayed, options, arms, &motor))?;
         let (campaign, noise) = (replayed.used(), replayed.noise());
         let unused =
             law.and_then(|law| law.unused.with_arm(campaign, noise, law.window_s, &found.arm));
@@ -314,13 +315,12 @@ fn equivalent_arm(
     }
 }
 
-/// Where the output-error method begins: `arms` to start from, and friction terms to try if the residual calls for
-/// another law.
+/// Where the output-error method begins: `arms` to start from.
 fn start_of(
     prepared: &Prepared<'_>,
     options: &Options,
     arms: Vec<ModalArm>,
-    (motor, law): (&MotorRegression, Option<&FrictionLaw>),
+    motor: &MotorRegression,
 ) -> OutputErrorStart {
     let omega = |&i: &usize| match &prepared.runs()[i].kind {
         RunKind::Sinusoidal(s) => Some(s.omega_rad_s),
@@ -333,6 +333,5 @@ fn start_of(
         most_evaluations: options.evaluations(),
         interrupt: options.interrupt.clone(),
         friction_varies: motor.varies_by().is_some(),
-        law: law.map(FrictionLaw::tried).unwrap_or_default(),
     }
 }

@@ -22,8 +22,6 @@ pub enum LawSource {
     OutputError {
         /// Whether it describes the runs from beginning to end; otherwise only over short windows.
         whole_runs: bool,
-        /// Whether each term is less than a thousandth of Coulomb and viscous friction.
-        negligible: bool,
     },
     /// The regression in slip phases.
     SlipPhases {
@@ -198,9 +196,6 @@ impl Describe for FrictionLawFinding {
     fn hint(&self) -> &'static str {
         let Self::FrictionLaw { source, .. } = self;
         match source {
-            LawSource::OutputError { negligible: true, .. } => {
-                "nothing to do: these terms are less than a thousandth of Coulomb and viscous friction"
-            }
             LawSource::SlipPhases { replayed_without: true, .. } => {
                 "nothing to do: the estimates are those of the output-error method"
             }

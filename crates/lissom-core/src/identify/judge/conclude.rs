@@ -41,7 +41,7 @@ pub(crate) fn conclude(evidence: &Evidence<'_>, mut findings: Vec<Finding>) -> C
     findings.extend(beam_choice::findings(evidence, &chosen.beam));
     findings.extend(refused);
     findings.extend(remarks::of_friction(evidence, &chosen));
-    findings.extend(friction_law::finding(evidence, &chosen));
+    findings.extend(friction_law::finding(evidence));
     if !alone {
         findings.splice(0..0, regression::reversed_tip(&chosen));
         findings.extend(regression::findings(evidence, &chosen));

@@ -2,12 +2,14 @@
 //! estimates worse.
 
 use crate::identify::findings::{BeamFinding, EstimateUnits, Finding};
-use crate::identify::methods::friction_law::{CurveSums, FrictionLaw, friction_law};
+use crate::identify::methods::friction_law::{
+    CurveSums, FrictionLaw, friction_law, predicts_better,
+};
 use crate::identify::methods::least_squares::{LeastSquares, least_squares};
-use crate::identify::methods::regression::thresholds::{COUPLING_HARDLY_KNOWN, RIGID_LEAVES};
 use crate::identify::methods::regression::{MotorRegression, motor_regression};
 use crate::identify::options::Options;
 use crate::identify::prepare::prepared::Prepared;
+use crate::identify::thresholds::CLEARLY_PRESENT;
 
 /// What slip phases give without a beam.
 pub(crate) struct RigidEquation {
@@ -18,8 +20,8 @@ pub(crate) struct RigidEquation {
     pub(crate) finding: Finding,
 }
 
-/// The equation without the coupling. `None` where the coupling is known or surely negative, or the equation without it leaves
-/// more of the torque.
+/// The equation without the coupling. `None` where the coupling is known or surely negative, or the equation with it predicts
+/// better.
 pub(crate) fn rigid_equation(
     prepared: &Prepared<'_>,
     options: &Options,
@@ -27,8 +29,7 @@ pub(crate) fn rigid_equation(
 ) -> Option<RigidEquation> {
     // One that is surely negative is of a tip whose sign is reversed.
     let coupling = regression.total_coupling.filter(|c| !c.is_negative())?;
-    let known = coupling.value > 0.0 && coupling.std < COUPLING_HARDLY_KNOWN * coupling.value;
-    if known {
+    if coupling.value > CLEARLY_PRESENT * coupling.std {
         return None;
     }
     let mut used = prepared.used().clone();
@@ -36,7 +37,7 @@ pub(crate) fn rigid_equation(
     let rigid = prepared.using(used);
     let found = motor_regression(&rigid, options)?;
     let residual_shares = [regression.relative_residual, found.relative_residual];
-    if residual_shares[1] >= RIGID_LEAVES * residual_shares[0] {
+    if predicts_better((prepared, regression), (&rigid, &found)) {
         return None;
     }
     let units = EstimateUnits::new(&prepared.campaign().channels);

@@ -2,17 +2,16 @@
 
 use crate::identify::estimate::Estimate;
 use crate::identify::findings::{BetterLaw, EstimateUnits, Finding, FrictionLawFinding, LawSource};
-use crate::identify::judge::{Chosen, Evidence};
+use crate::identify::judge::Evidence;
 use crate::identify::methods::friction_law::candidates::ModelTerm;
 use crate::identify::methods::friction_law::choice::LawCandidate;
 use crate::identify::methods::friction_law::law_term::LawTerm;
 use crate::identify::methods::friction_law::thresholds::LAW_LEAVES_MUCH;
 use crate::identify::methods::output_error::OutputError;
 use crate::identify::methods::regression::MotorRegression;
-use crate::identify::methods::regression::thresholds::NOISE_ALONE;
 
 /// The law of friction that the data call for: that of the replay where it describes the runs.
-pub(crate) fn finding(evidence: &Evidence<'_>, chosen: &Chosen) -> Option<Finding> {
+pub(crate) fn finding(evidence: &Evidence<'_>) -> Option<Finding> {
     let units = EstimateUnits::new(&evidence.campaign.channels);
     let reported = |terms: Vec<(LawTerm, Vec<Estimate>)>, source: LawSource| {
         Some(Finding::new(FrictionLawFinding::FrictionLaw { terms, source, units }))
@@ -20,11 +19,8 @@ pub(crate) fn finding(evidence: &Evidence<'_>, chosen: &Chosen) -> Option<Findin
     let replay = evidence.replay();
     let by_replay = replay.map_or(Vec::new(), OutputError::law_terms);
     if !by_replay.is_empty() {
-        let friction = &chosen.drive.friction;
         let source = LawSource::OutputError {
             whole_runs: replay.is_some_and(|oe| oe.describes_whole_runs() && !oe.is_in_windows()),
-            // Of exact logs everything is known, and whatever the simulator or the sensor adds is found.
-            negligible: by_replay.iter().all(|term| friction.hardly_has(term)),
         };
         return reported(by_replay, source);
     }
@@ -36,7 +32,7 @@ pub(crate) fn finding(evidence: &Evidence<'_>, chosen: &Chosen) -> Option<Findin
     let is_lag = |c: &LawCandidate| c.term == ModelTerm::Law(LawTerm::CommandLag);
     let taken = law.candidates.iter().filter(|c| c.taken && !is_lag(c));
     let paired = taken.map(|c| c.standard_errors).fold(f64::INFINITY, f64::min);
-    let of_noise = |r: &MotorRegression| r.left.by_noise > NOISE_ALONE;
+    let of_noise = |r: &MotorRegression| r.left.is_noise();
     let of_noise = evidence.methods.regression.as_ref().is_some_and(of_noise);
     let left_over = law.relative_residual[1];
     let source = LawSource::SlipPhases {

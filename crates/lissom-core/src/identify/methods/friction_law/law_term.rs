@@ -110,19 +110,6 @@ pub enum ScaleUnit {
 }
 
 impl LawTerm {
-    /// Whether an arm with these terms may get it too.
-    pub(crate) fn may_join(self, terms: &DryTerms, ripples_most: usize) -> bool {
-        let near = |k: f64, r: &Ripple| (r.per_rad / k).ln().abs() < std::f64::consts::LN_2 / 2.0;
-        match self {
-            Self::NearRest { speed, .. } => terms.near_rest.is_none() && speed > 0.0,
-            Self::Ripple { per_angle } => {
-                terms.ripples.len() < ripples_most
-                    && !terms.ripples.iter().any(|r| near(per_angle, r))
-            }
-            _ => false,
-        }
-    }
-
     /// The speed or the frequency of a term that has one; zero of others.
     pub(super) fn scanned(self) -> f64 {
         match self {
@@ -194,14 +181,6 @@ impl LawTerm {
     /// Whether it is a function of speed.
     pub(super) fn is_by_speed(self) -> bool {
         matches!(self, Self::ViscousByDirection | Self::NearRest { .. } | Self::Root)
-    }
-
-    /// Amplitudes with which it does nothing.
-    pub(crate) fn without_effect(self) -> &'static [f64] {
-        match self {
-            Self::Ripple { .. } | Self::TorqueRipple { .. } => &[0.0; 2],
-            _ => &[0.0],
-        }
     }
 
     /// Gives it to an arm's friction, with its amplitudes; does nothing where it is none of these terms.

@@ -89,7 +89,7 @@ pub struct FrictionLaw {
     pub(crate) possible: Vec<PossibleTerm>,
     /// What line and model leave of blocks that were left out of their fit.
     pub(crate) unused: Unused,
-    /// The speeds of the windows.
+    /// The speeds of the motor in motion.
     pub(crate) speeds: Speeds,
     /// Relative residual ‖y − X·q‖/‖y‖ of the line, of the chosen model, and of the curve \[1\].
     pub relative_residual: [f64; 3],
@@ -108,7 +108,8 @@ pub struct LawFit {
     pub viscous: Option<Estimate>,
     /// Coulomb friction C.
     pub coulomb: Option<Estimate>,
-    /// The line C + V·|v| nearest to friction at the speeds of the windows, weighted with time: Coulomb friction, and viscous
+    /// The line C + V·|v| nearest to friction at the speeds of the log, weighted with time, without those slower than a
+    /// twentieth of the fastest, as that of least squares: Coulomb friction, and viscous
     /// friction. Without terms by speed these are C and V.
     pub projected: [Option<Estimate>; 2],
     /// The same Coulomb friction with the offset, forward and backward.
@@ -141,18 +142,6 @@ impl FrictionLaw {
             None => sums.beside_law(self.curve, found),
         };
         Self { curve, ..self }
-    }
-
-    /// Terms that were tried last of their kind, those of the law first.
-    pub(crate) fn tried(&self) -> Vec<LawTerm> {
-        let chosen = self.chosen.terms.iter().map(|(term, _)| *term);
-        let mut found: Vec<LawTerm> = chosen.collect();
-        for term in self.candidates.iter().rev().filter_map(|c| c.term.law()) {
-            if found.iter().all(|t| t.name() != term.name()) {
-                found.push(term);
-            }
-        }
-        found
     }
 }
 
@@ -246,23 +235,28 @@ pub(crate) fn friction_law(
     Some((law, sums))
 }
 
-/// Whether the equation with a mode that no tip measures predicts blocks that were left out better than the one without, each
-/// with the terms that it calls for, in windows of the same length.
-pub(crate) fn mode_predicts_better(
-    prepared: &Prepared<'_>,
-    rigid: &MotorRegression,
-    flexible: &MotorRegression,
+/// Whether an equation with a mode or tips predicts blocks that were left out better than the one without, each with the terms
+/// that it calls for, in windows of the same length, and leaves no more of them with each in its own windows: a ripple is gone
+/// in windows that are long enough for a mode.
+pub(crate) fn predicts_better(
+    with: (&Prepared<'_>, &MotorRegression),
+    without: (&Prepared<'_>, &MotorRegression),
 ) -> bool {
-    let (campaign, noise) = (prepared.used(), prepared.noise());
-    let predicted = |motor: &MotorRegression| {
+    let window_s = with.1.window_s;
+    let predicted = |(prepared, motor): (&Prepared<'_>, &MotorRegression)| {
+        let (campaign, noise) = (prepared.used(), prepared.noise());
         let load = motor.gravity.map(|g| g.load());
         let mode = motor.mode.map(|m| m.shape());
-        let source = Source { campaign, noise, window_s: flexible.window_s, mode, load };
+        let source = Source { campaign, noise, window_s, mode, load };
         let sampled = source.sampled();
         Found::of(&sampled, false)?.search.left_out_shares()
     };
-    let both = predicted(rigid).zip(predicted(flexible));
+    let both = predicted(without).zip(predicted(with));
+    let left = |(prepared, motor): (&Prepared<'_>, &MotorRegression)| {
+        Some(friction_law(prepared, motor)?.0.unused.shares().model)
+    };
     both.is_some_and(|(without, with)| Improvement::between(&without, &with).is_sure)
+        && left(without).zip(left(with)).is_none_or(|(without, with)| with < without)
 }
 
 /// Whether a lag is a filter or a delay, its time \[s\], and the residual with it over that without.
@@ -340,7 +334,7 @@ impl<'a> Found<'a> {
 
     /// The terms that are not known to be absent.
     fn possible(&self) -> Option<Vec<PossibleTerm>> {
-        self.search.possible(&Speeds::of(&self.speeds))
+        self.search.possible(&Speeds::of(&self.search.sampled.speeds_in_motion()))
     }
 
     /// The model with the curve, and the sums that the curve is from.
@@ -352,7 +346,7 @@ impl<'a> Found<'a> {
         line: ByBlock,
     ) -> Option<(FrictionLaw, CurveSums)> {
         let Self { search, cut, speeds, line_residual } = self;
-        let quantiles = Speeds::of(speeds);
+        let quantiles = Speeds::of(&sampled.speeds_in_motion());
         let (fit, residual, missing) = search.fit(&quantiles, lag)?;
         let sums = CurveSums::new(sampled, cut, speeds, &search.not_by_speed())?;
         let (curve, by_curve) = sums.by_blocks()?;

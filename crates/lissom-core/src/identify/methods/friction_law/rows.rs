@@ -13,6 +13,7 @@ use crate::identify::methods::regression::{
     ModeShape, ModeTerms, ModeWindow, MotorColumns, MotorEquation, Phase, Rows, SMOOTHED_PART,
     SMOOTHING_LEAST, SineAndCosine, WINDOW_STEP, Window, velocity_and_phases,
 };
+use crate::identify::methods::thresholds::SLOWEST_SAMPLE;
 use crate::identify::prepare::run_noise::RunNoise;
 use crate::load::GravityLoad;
 use crate::record::{Campaign, Run};
@@ -138,6 +139,25 @@ impl<'a> Sampled<'a> {
         let commands = self.campaign.runs.iter().flat_map(Run::command);
         let most = commands.fold(0.0, |most: f64, u| most.max(u.abs()));
         most * self.campaign.channels.command.torque_per_unit().abs()
+    }
+
+    /// Speeds of the motor in motion, ascending: of samples that are evenly spread over the campaign, without those slower than
+    /// [`SLOWEST_SAMPLE`].
+    pub(super) fn speeds_in_motion(&self) -> Vec<f64> {
+        let runs = || self.campaign.runs.iter().zip(&*self.runs);
+        let of_runs = |of: fn(&Run) -> f64| runs().map(move |(run, _)| of(run));
+        let all_s: f64 = of_runs(|run| run.sample_time_s() * run.len() as f64).sum();
+        let longest_s = of_runs(Run::sample_time_s).fold(0.0, f64::max);
+        let apart_s = longest_s.max(all_s / MOST_ROWS as f64);
+        let of_run = |(run, slipping): (&Run, &'_ Slipping)| {
+            let step = (apart_s / run.sample_time_s()).round().max(1.0) as usize;
+            slipping.velocity.iter().step_by(step).map(|v| v.abs()).collect::<Vec<_>>()
+        };
+        let mut speeds: Vec<f64> = runs().flat_map(of_run).collect();
+        speeds.par_sort_unstable_by(f64::total_cmp);
+        let fastest = speeds.last().copied().unwrap_or(0.0);
+        let slow = speeds.partition_point(|v| *v <= SLOWEST_SAMPLE * fastest);
+        speeds.split_off(slow)
     }
 
     /// Lowest and highest angle of the windows.

@@ -43,8 +43,5 @@ thresholds! {
         LAW_LEAVES_MUCH: f64 = 0.05, "1", Convention;
         /// A knot of the friction curve is left out if fewer windows than this are near its speed.
         KNOT_ROWS: f64 = 20.0, "windows", Convention;
-        /// A term of the output-error method that is smaller than this share of Coulomb and viscous
-        /// friction is reported as negligible.
-        NEGLIGIBLE_TERM: f64 = 1e-3, "1", Convention;
     }
 }

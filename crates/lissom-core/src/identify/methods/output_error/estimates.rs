@@ -1,5 +1,6 @@
 //! Estimates of friction, drive and beam from the identified arm.
 
+use crate::friction::Root;
 use crate::identify::drive_estimates::DriveEstimates;
 use crate::identify::estimate::{Estimate, ModeEstimate};
 use crate::identify::friction_estimates::{Friction, LawEstimates};
@@ -35,15 +36,18 @@ impl OutputError {
             ..self.terms()
         };
         let line = |arm: &ModalArm| -> [f64; 2] {
-            let near = arm.dry_terms.near_rest.zip(speeds);
-            let [level, slope] = near.map_or([0.0; 2], |(near, speeds)| {
-                let share = |speed: f64| near.falloff.share(speed / near.speed_rad_s);
-                speeds.line_of(share).map(|by| by * near.torque_nm)
-            });
+            let DryTerms { near_rest, root, .. } = &arm.dry_terms;
+            let share = |speed: f64| {
+                let near = near_rest.map_or(0.0, |near| {
+                    near.torque_nm * near.falloff.share(speed / near.speed_rad_s)
+                });
+                near + root.map_or(0.0, |r| r.torque_nm_per_root_rad_s * Root::growth(speed))
+            };
+            let [level, slope] = speeds.map_or([0.0; 2], |speeds| speeds.line_of(share));
             [arm.coulomb_nm + level, mean(arm) + slope]
         };
         let level = |sign: f64| self.estimate_of(|arm| line(arm)[0] + sign * arm.offset_nm);
-        let moved = speeds.is_some() && law.near_rest.is_some();
+        let moved = speeds.is_some() && (law.near_rest.is_some() || law.root.is_some());
         Friction {
             coulomb: if moved { Some(level(0.0)) } else { law.coulomb },
             forward: if moved { Some(level(1.0)) } else { law.forward },
@@ -69,7 +73,10 @@ impl OutputError {
         if let Some(difference) = self.estimate(Parameter::ViscousDifference) {
             terms.push((LawTerm::ViscousByDirection, vec![difference]));
         }
-        terms.extend(self.terms().law_terms());
+        let law = self.terms();
+        terms.extend(law.law_terms());
+        let with_load = self.arm.dry_terms.with_load.zip(law.with_load);
+        terms.extend(with_load.map(|(w, e)| (LawTerm::WithLoad { load: w.load }, vec![e])));
         terms
     }
 

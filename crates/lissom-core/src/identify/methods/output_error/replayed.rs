@@ -30,7 +30,6 @@ pub fn output_error(prepared: &Prepared<'_>, start: &OutputErrorStart) -> Option
     let campaign = prepared.used();
     let masks = data::masks(campaign);
     let blocks = data::blocks(campaign, &start.omega_rad_s);
-    let law = &start.law;
     let noise = noise::of_samples(campaign);
     let most = start.most_evaluations;
     let budget = Budget::new(most, start.interrupt.clone());
@@ -38,12 +37,10 @@ pub fn output_error(prepared: &Prepared<'_>, start: &OutputErrorStart) -> Option
         campaign,
         masks: &masks,
         blocks: &blocks,
-        law,
         noise: &noise,
         budget: &budget,
         widening: WINDOW_WIDENING,
         tries_first_mode: !start.friction_varies,
-        tries_laws: true,
     };
     let Attempt { fit, mut report, without_repeats, left } = best(&fitting, start)?;
     let fitting = Fitting { masks: without_repeats.as_deref().unwrap_or(&masks), ..fitting };

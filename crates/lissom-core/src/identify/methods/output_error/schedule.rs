@@ -152,7 +152,7 @@ fn widen(fitting: &Fitting<'_>, fit: &mut ArmFit, report: &mut Report) {
     let longest = fitting.longest_s();
     let mut factor = fitting.widening;
     while !fit.whole_runs && !fitting.budget.is_spent() {
-        let (before, mark) = (fit.clone(), report.mark());
+        let (before, added) = (fit.clone(), report.added.len());
         fit.window_s = (fit.window_s * factor).min(longest);
         fit.whole_runs = fit.window_s >= longest;
         let windows = widened(fitting.campaign, &fit.body.arm, &fit.windows, fit.window_s);
@@ -164,7 +164,7 @@ fn widen(fitting: &Fitting<'_>, fit: &mut ArmFit, report: &mut Report) {
         let diverges = fitting.diverges(fit);
         if report.grown(&fit.residual) || diverges {
             *fit = before;
-            report.back_to(&mark);
+            report.added.truncate(added);
             let at_noise = fitting.beyond_noise(fit) <= RESIDUAL_AT_NOISE;
             if factor < WINDOW_WIDENING || !at_noise {
                 let lawful = !fit.body.arm.dry_terms.is_empty();
@@ -224,8 +224,7 @@ fn again(fitting: &Fitting<'_>, first: Attempt, first_window_s: Option<f64>) -> 
     if fitting.budget.is_spent() || !best.fit.whole_runs || !(caught || faint()) {
         return best;
     }
-    // Other friction laws are not tried again.
-    let slowly = Fitting { widening: WINDOW_WIDENING_SLOW, tries_laws: false, ..*fitting };
+    let slowly = Fitting { widening: WINDOW_WIDENING_SLOW, ..*fitting };
     for arm in modes::starts_again(fitting, &best.fit) {
         let Some(other) = attempt(&slowly, &arm, first_window_s) else { continue };
         if other.fit.whole_runs && best.is_worse(fitting, &other) {

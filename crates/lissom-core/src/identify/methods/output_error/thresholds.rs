@@ -11,14 +11,13 @@ thresholds! {
         /// Largest ratio of a channel's residual to its sensor's noise up to which an arm that is
         /// simulated over whole runs is accepted. On short windows, a search with a larger ratio is
         /// given up; this changed no accepted estimate of 30 study campaigns and of the measured
-        /// logs (docs/src/evidence/pruned.md). Above this ratio, ripples of all periods are tried,
-        /// and a search ends by `STEP_SHARE_LEAST`.
+        /// logs (docs/src/evidence/pruned.md). Above this ratio a search ends by `STEP_SHARE_LEAST`.
         RESIDUAL_FAR_ABOVE_NOISE: f64 = 3.0, "1", Convention;
         /// A residual below this many times the sensor's noise counts as noise. An arm that is
         /// simulated over windows shorter than the runs is accepted only below it.
         RESIDUAL_AT_NOISE: f64 = 1.25, "1", Convention;
-        /// Ratio of the residual to the sensor's noise above which friction terms and lags of tips
-        /// are tried. Below it there is nothing for them to explain.
+        /// Ratio of the residual to the sensor's noise above which lags of tips are tried. Below it
+        /// there is nothing for them to explain.
         RESIDUAL_ABOVE_NOISE: f64 = 1.2, "1", Convention;
         /// Share of a channel's squared residual that varies more slowly than its sensor's noise,
         /// above which the arm lacks an effect: the search is repeated from other frequencies, and
@@ -183,14 +182,6 @@ thresholds! {
         /// Largest number of repetitions of the whole search, if it may have ended in a wrong
         /// minimum.
         REPETITIONS_MOST: usize = 4, "searches", Convention;
-        /// Initial speeds over which friction near standstill changes, as shares of the fastest
-        /// speed; they are tried in turn.
-        NEAR_REST_SPEEDS: [f64; 4] = [0.02, 0.06, 0.2, 0.6], "1", Convention;
-        /// Largest number of ripples of friction.
-        RIPPLES_MOST: usize = 2, "ripples", Convention;
-        /// Number of periods at which ripples are tried: two half waves over the travel, three, and
-        /// so on.
-        RIPPLE_PERIODS: usize = 46, "periods", Convention;
     }
     "output error: noise and standard errors" {
         /// Approximate number of residuals of a channel from which its noise is estimated.

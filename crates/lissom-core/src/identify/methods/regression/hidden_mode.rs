@@ -13,9 +13,9 @@ use crate::identify::methods::regression::normal::{Cluster, Solution, Term, solv
 use crate::identify::methods::regression::scan::{Candidate, Scan};
 use crate::identify::methods::regression::sums_by_length::SumsByLength;
 use crate::identify::methods::regression::thresholds::{
-    FEW_PHASES, HIDDEN_MODE_DAMPED, HIDDEN_MODE_GAINS, HIDDEN_MODE_LEAVES, HIDDEN_MODE_MOVES,
-    HIDDEN_MODE_SHARE, HIDDEN_MODE_SURE, NOISE_ALONE, NOTHING_MISSING,
+    FEW_PHASES, HIDDEN_MODE_DAMPED, HIDDEN_MODE_SHARE, HIDDEN_MODE_SURE,
 };
+use crate::identify::thresholds::MODE_DAMPING_LEAST;
 
 /// Share of inertia before the spring if the logs do not identify it: mean and standard deviation of a uniform distribution.
 const USUAL_SHARE: Estimate = Estimate { value: 0.5, std: 0.29 };
@@ -87,8 +87,7 @@ fn vector(shape: ModeShape) -> Vector3<f64> {
 }
 
 impl ShownMode {
-    /// Solves the sums `with` the columns of a mode. `None` if its frequency is not certain, or if it explains too little of the
-    /// residual of the solution `without` these columns.
+    /// Solves the sums `with` the columns of a mode, beside the solution `without` these columns. `None` if no mode has such terms.
     pub(super) fn of(
         with: &[Cluster],
         columns: &MotorColumns,
@@ -98,13 +97,12 @@ impl ShownMode {
         let places = columns.mode_places()?;
         let solution = solve(with, &columns.terms(Term::Signed(DRY)))?;
         let residual_ratio = solution.relative_residual / without.relative_residual;
-        if solution.inseparable.iter().any(|lost| *lost) || residual_ratio > HIDDEN_MODE_LEAVES {
+        if solution.inseparable.iter().any(|lost| *lost) {
             return None;
         }
         let shape = shape_of(&solution.value, places)?;
         let covariance = covariance(&solution, places, shape);
-        let found = Self { window_s, shape, covariance, residual_ratio };
-        (found.frequency_std() < shape.omega_rad_s / HIDDEN_MODE_SURE).then_some(found)
+        Some(Self { window_s, shape, covariance, residual_ratio })
     }
 
     fn frequency_std(&self) -> f64 {
@@ -116,30 +114,26 @@ impl ShownMode {
         self.frequency_std() / self.shape.omega_rad_s
     }
 
-    /// Adds half of the difference to the mode at a `neighbour` window length to the covariance; `None` if the frequencies of
-    /// the two differ.
+    /// Adds half of the difference to the mode at a `neighbour` window length to the covariance; `None` if its frequency is then
+    /// not certain.
     pub(super) fn beside(&self, neighbour: &Self) -> Option<Self> {
-        let change = vector(self.shape) - vector(neighbour.shape);
-        let same = change[0].abs() < HIDDEN_MODE_MOVES * self.shape.omega_rad_s;
-        let half = 0.5 * change;
+        let half = 0.5 * (vector(self.shape) - vector(neighbour.shape));
         let covariance = self.covariance + half * half.transpose();
-        same.then(|| Self { covariance, ..self.clone() })
+        let found = Self { covariance, ..self.clone() };
+        (found.uncertainty() < 1.0 / HIDDEN_MODE_SURE).then_some(found)
     }
 
-    /// Replaces a damping or a share of inertia that is not identified, or not possible, by usual values; `None` if the damping
-    /// is clearly negative.
-    pub(super) fn possible(mut self) -> Option<Self> {
+    /// Replaces a damping or a share of inertia that is not identified, or not possible, by usual values.
+    fn possible(mut self) -> Self {
         let ModeShape { omega_rad_s, damping_s, inertia_share } = self.shape;
         let std = self.covariance.diagonal().map(|v| v.max(0.0).sqrt());
         let to_ratio = 0.5 * omega_rad_s;
         let damping_ratio = damping_s * to_ratio;
-        if damping_ratio < -HIDDEN_MODE_GAINS {
-            return None;
-        }
         let [share_told, damping_told] = [
             (HIDDEN_MODE_SHARE..1.0 - HIDDEN_MODE_SHARE).contains(&inertia_share)
                 && std[2] < USUAL_SHARE.std,
-            damping_ratio < HIDDEN_MODE_DAMPED && std[1] * to_ratio < HIDDEN_MODE_DAMPED,
+            (MODE_DAMPING_LEAST..HIDDEN_MODE_DAMPED).contains(&damping_ratio)
+                && std[1] * to_ratio < HIDDEN_MODE_DAMPED,
         ];
         if !share_told {
             self.shape.inertia_share = USUAL_SHARE.value;
@@ -149,7 +143,7 @@ impl ShownMode {
             self.shape.damping_s = USUAL_DAMPING_RATIO.value / to_ratio;
             self.take_usual(1, USUAL_DAMPING_RATIO.std / to_ratio);
         }
-        Some(self)
+        self
     }
 
     /// Sets a standard deviation without correlation to the others.
@@ -225,10 +219,7 @@ pub(super) fn shown_mode(without: &SumsByLength<'_>, scanned: &Scan) -> Option<S
     let shown = |candidate: &Candidate| {
         let length = candidate.window_s;
         let solution = without.solved(length, &terms)?;
-        let left = LeftTorque::of(&without.clusters(length), &terms, &solution);
-        let looks_rigid =
-            solution.relative_residual < NOTHING_MISSING || left.by_noise > NOISE_ALONE;
-        if looks_rigid {
+        if LeftTorque::of(&without.clusters(length), &terms, &solution).is_noise() {
             return None;
         }
         ShownMode::of(&sought.clusters(length), &sought.columns, &solution, length)
@@ -243,5 +234,5 @@ pub(super) fn shown_mode(without: &SumsByLength<'_>, scanned: &Scan) -> Option<S
     };
     let modes = by_length.iter().enumerate().filter_map(beside);
     let best = modes.min_by(|a, b| a.uncertainty().total_cmp(&b.uncertainty()))?;
-    best.possible()
+    Some(best.possible())
 }

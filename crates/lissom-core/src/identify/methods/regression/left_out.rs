@@ -5,9 +5,10 @@ use nalgebra::{DMatrix, DVector};
 use crate::identify::methods::regression::normal::{Cluster, Term, solve};
 use crate::identify::methods::regression::run_difference::{RunDifference, RunSums};
 use crate::identify::methods::regression::thresholds::{
-    UNLIKE_MISFIT, UNLIKE_NEXT, UNLIKE_NEXT_OF_FASTEST, UNLIKE_SPOILS, UNLIKE_USUAL, UNLIKE_WITHIN,
+    UNLIKE_MISFIT, UNLIKE_NEXT, UNLIKE_NEXT_OF_FASTEST, UNLIKE_SPOILS, UNLIKE_USUAL,
 };
 
+use crate::identify::thresholds::PRESENT;
 use crate::record::Run;
 
 /// Most runs for which this is done.
@@ -85,7 +86,7 @@ pub(super) fn runs_left_out(
         let residual = own_left / of_others;
         let told = residual.is_finite() && !solution.inseparable.iter().any(|lost| *lost);
         let (value, covariance) = (solution.value, solution.covariance);
-        let wide = &covariance * UNLIKE_WITHIN.powi(2);
+        let wide = &covariance * PRESENT.powi(2);
         let misfit = sums.misfit(&value, &wide, of_others).unwrap_or(0.0);
         let difference = sums.difference(&value, own_left, of_others);
         let beside = || speeds.iter().enumerate().filter(|(i, _)| *i != run).map(|(_, s)| *s);

@@ -27,25 +27,15 @@ thresholds! {
         /// Smallest share of a direction's square that is taken as motion, so that its standard
         /// error stays finite.
         MOTION_LEAST: f64 = 0.05, "1", Convention;
-        /// If the residual is less than this share of the torque, the equation lacks no term,
-        /// except one that explains most of the residual and changes an estimate by
-        /// `MISSING_MOVES`.
-        NOTHING_MISSING: f64 = 5e-5, "1", Convention;
         /// If nobody states whether a command is held, it is taken as held only if it then acts
         /// later by no more than this share of a sample: a longer delay has another cause.
         HELD_DELAY_MOST: f64 = 0.4, "samples", Convention;
-        /// If nothing shows whether a command is held, the estimates that this changes by more than
-        /// this are reported.
-        HOLD_MATTERS_ERRORS: f64 = 3.0, "standard errors", Convention;
-        /// As `HOLD_MATTERS_ERRORS`: in addition the relative change must be more than this.
+        /// If nothing shows whether a command is held, the estimates are reported that this changes
+        /// by more than `PRESENT` standard errors and this share.
         HOLD_MATTERS: f64 = 0.01, "1", Convention;
         /// The residual of the equation is noise of the sensors if this noise explains more than
         /// this share of its square.
         LEFT_BY_NOISE: f64 = 0.5, "1", Convention;
-        /// If noise explains more than this share of the squared residual, the equation lacks no
-        /// term whose regressor is itself noisy, because such a term can describe a part of the
-        /// noise.
-        NOISE_ALONE: f64 = 0.8, "1", Convention;
         /// Friction, or a load, changes from one slip phase to the next if a constant for each slip
         /// phase explains more than this share of the squared residual beyond noise.
         LEFT_BETWEEN_PHASES: f64 = 0.15, "1", Convention;
@@ -79,10 +69,6 @@ thresholds! {
         /// As `UNLIKE_NEXT`, for the fastest and the slowest run: if friction is not a straight
         /// line over speed, these runs differ from the others because of the friction law.
         UNLIKE_NEXT_OF_FASTEST: f64 = 5.0, "1", Convention;
-        /// Before the comparison the others' parameters may change towards the run by about this
-        /// many of their standard errors: a run that is the only one to show a parameter is not
-        /// unlike the others.
-        UNLIKE_WITHIN: f64 = 3.0, "standard errors", Convention;
         /// One change explains a run that is unlike the others if its residual with this change is
         /// less than this share of that without it, or less than twice the others' own residual.
         DIFFERENCE_EXPLAINS: f64 = 0.35, "1", Convention;
@@ -92,29 +78,15 @@ thresholds! {
         /// A command has the wrong sign if the scale that describes a run differs from −1 by less
         /// than this.
         REVERSED_SCALE: f64 = 0.3, "1", Convention;
-        /// A mode that no tip shows is accepted if the residual with it is less than this share of
-        /// the residual without it.
-        HIDDEN_MODE_LEAVES: f64 = 0.7, "1", Convention;
-        /// As `HIDDEN_MODE_LEAVES`: in addition the frequency of the mode must be this many
-        /// standard errors from zero.
+        /// A mode that no tip shows is a candidate if its frequency is this many standard errors
+        /// from zero.
         HIDDEN_MODE_SURE: f64 = 20.0, "standard errors", Convention;
-        /// As `HIDDEN_MODE_LEAVES`: in addition windows of a neighbouring length must show the mode
-        /// at a frequency that differs by less than this share.
-        HIDDEN_MODE_MOVES: f64 = 0.1, "1", Convention;
         /// At least this share of the inertia must be on each side of the spring; otherwise the
         /// share counts as not identified.
         HIDDEN_MODE_SHARE: f64 = 0.02, "1", Convention;
-        /// A solution whose damping ratio is below minus this is not a mode, because it would gain
-        /// energy.
-        HIDDEN_MODE_GAINS: f64 = 0.1, "1", Convention;
         /// A damping ratio above this, or with a standard error above this, counts as not
         /// identified.
         HIDDEN_MODE_DAMPED: f64 = 0.3, "1", Convention;
-        /// The coupling to the tips is too uncertain if its relative standard error is above this.
-        COUPLING_HARDLY_KNOWN: f64 = 0.5, "1", Convention;
-        /// The equation without the coupling is used in this case if its residual is less than this
-        /// many times that with the coupling.
-        RIGID_LEAVES: f64 = 1.15, "1", Convention;
         /// A warning reports an inertia that would be larger by more than this share if the
         /// residual torque accelerated the motor.
         INERTIA_SHORT: f64 = 0.05, "1", Convention;

@@ -6,6 +6,7 @@ use crate::friction::TermScale;
 use crate::identify::methods::output_error::engine::budget::Budget;
 use crate::identify::methods::output_error::engine::coordinates::{Body, in_coordinates};
 use crate::identify::methods::output_error::engine::noise::is_least;
+use crate::identify::methods::friction_law::thresholds::NEAR_REST_MOST;
 use crate::identify::methods::output_error::engine::windows::{fastest_rad_s, travel};
 use crate::identify::methods::output_error::thresholds::{
     MODE_TURN_MOST, NEAR_REST_SPEED_LEAST, RATE_MOST, RIPPLE_PHASE_LEAST, RIPPLE_PHASE_MOST,
@@ -274,7 +275,9 @@ fn is_braking(campaign: &Campaign, arm: &ModalArm, sample_s: f64) -> bool {
     let fastest = fastest_rad_s(campaign);
     let travel = travel(campaign);
     let shown = |scale: TermScale| match scale {
-        TermScale::Speed(speed) => speed > NEAR_REST_SPEED_LEAST * fastest,
+        TermScale::Speed(speed) => {
+            (NEAR_REST_SPEED_LEAST * fastest..=NEAR_REST_MOST * fastest).contains(&speed)
+        }
         TermScale::PerAngle(k) => {
             k * travel > RIPPLE_PHASE_LEAST && k * fastest * sample_s < RIPPLE_PHASE_MOST
         }

@@ -82,8 +82,6 @@ pub struct StageReport {
 #[derive(Debug, Default)]
 pub(crate) struct Report {
     pub(crate) stages: Vec<StageReport>,
-    /// Index of the first stage with the present friction law.
-    under_law: usize,
     /// Parameters that were added.
     pub(crate) added: Vec<Extension>,
     /// Parameters that were not added when they were last tried.
@@ -93,37 +91,10 @@ pub(crate) struct Report {
 }
 
 impl Report {
-    /// Whether a residual is larger than on the first windows with the present friction law, by [`RESIDUAL_GROWN`].
+    /// Whether a residual is larger than on the first windows, by [`RESIDUAL_GROWN`].
     pub(crate) fn grown(&self, residual: &[f64]) -> bool {
-        let first = self.stages.get(self.under_law);
+        let first = self.stages.first();
         let least = first.map_or(residual, |s| &s.residual);
         least.iter().zip(residual).any(|(a, b)| *b > RESIDUAL_GROWN * a)
     }
-
-    /// Notes that friction has another law from the last stage on. Over longer windows, where the residual may have grown
-    /// already, later stages are still compared with the first one.
-    pub(crate) fn law_changed(&mut self) {
-        let Some(last) = self.stages.last() else { return };
-        let first = &self.stages[self.under_law].residual;
-        if last.residual.iter().zip(first).all(|(now, before)| now <= before) {
-            self.under_law = self.stages.len() - 1;
-        }
-    }
-
-    /// State of the report before a stage.
-    pub(crate) fn mark(&self) -> Mark {
-        Mark { under_law: self.under_law, added: self.added.len() }
-    }
-
-    /// Removes what was added after `mark`.
-    pub(crate) fn back_to(&mut self, mark: &Mark) {
-        self.under_law = mark.under_law;
-        self.added.truncate(mark.added);
-    }
-}
-
-/// A state of a report to which it may return.
-pub(crate) struct Mark {
-    under_law: usize,
-    added: usize,
 }

@@ -2,7 +2,6 @@
 
 use rayon::prelude::*;
 
-use crate::identify::methods::friction_law::LawTerm;
 use crate::identify::methods::output_error::engine::budget::Budget;
 use crate::identify::methods::output_error::engine::coordinates::Body;
 use crate::identify::methods::output_error::engine::covariance::Covariances;
@@ -32,8 +31,6 @@ pub(crate) struct Fitting<'a> {
     pub(crate) campaign: &'a Campaign,
     pub(crate) masks: &'a [Masks],
     pub(crate) blocks: &'a [Blocks],
-    /// Terms of friction that slip phases show.
-    pub(crate) law: &'a [LawTerm],
     /// Noise of each channel, estimated from its samples alone.
     pub(crate) noise: &'a [SensorNoise],
     /// Limit of evaluations of the whole search.
@@ -42,8 +39,6 @@ pub(crate) struct Fitting<'a> {
     pub(crate) widening: f64,
     /// Whether a first mode of a rigid axis is tried: friction that varies would be taken for one.
     pub(crate) tries_first_mode: bool,
-    /// Whether other friction laws than that of the start are tried.
-    pub(crate) tries_laws: bool,
 }
 
 impl Fitting<'_> {

@@ -1,11 +1,10 @@
-//! Parameters beyond the simplest law, added if the residual shows them.
+//! Lags and kinds of damping, added if the residual shows them.
 
 use crate::identify::methods::output_error::engine::covariance::standard_error;
 use crate::identify::methods::output_error::model::fit::{ArmFit, Extension, Report};
 use crate::identify::methods::output_error::model::fitting::Fitting;
 use crate::identify::methods::output_error::moves::dampers::drop_dampers;
-use crate::identify::methods::output_error::moves::law;
-use crate::identify::methods::output_error::moves::scores::{Promise, all_scores, share};
+use crate::identify::methods::output_error::moves::scores::{Promise, all_scores};
 use crate::identify::methods::output_error::thresholds::{
     GROUP_SHARE_LARGE, GROUPS_ADDED_MOST, PARAMETER_SHARE_LEAST, RESIDUAL_ABOVE_NOISE,
 };
@@ -28,10 +27,6 @@ pub(crate) fn extend(fitting: &Fitting<'_>, fit: &mut ArmFit, report: &mut Repor
         };
         let best = found.iter().enumerate().filter(called_for);
         let best = best.max_by(|a, b| a.1.share().total_cmp(&b.1.share())).map(|(k, _)| k);
-        let least = best.map_or(GROUP_SHARE_LARGE, |k| found[k].share().max(GROUP_SHARE_LARGE));
-        if add_to_law(fitting, fit, report, least) {
-            continue;
-        }
         let added = best.map(|k| found.remove(k).group);
         report.refused = found.into_iter().flat_map(|promise| promise.group).collect();
         let Some(added) = added else { break };
@@ -40,28 +35,6 @@ pub(crate) fn extend(fitting: &Fitting<'_>, fit: &mut ArmFit, report: &mut Repor
         fitting.search(fit, report);
         drop_dampers(fitting, fit, report);
     }
-}
-
-/// Adds a term to the friction law, if the residual is above the noise and the term is expected to lower the cost by
-/// more than the share `least`. Returns whether it was added.
-fn add_to_law(fitting: &Fitting<'_>, fit: &mut ArmFit, report: &mut Report, least: f64) -> bool {
-    if !fitting.tries_laws || fitting.beyond_noise(fit) < RESIDUAL_ABOVE_NOISE {
-        return false;
-    }
-    let Some((trial, found)) = law::best(fitting, fit, least) else { return false };
-    if share(&found) <= least {
-        return false;
-    }
-    let mut with = fit.clone();
-    trial.put_into(&mut with);
-    fitting.search(&mut with, report);
-    let better = law::is_within_data(fitting, &with) && fitting.is_better(&with, fit);
-    if better {
-        *fit = with;
-        report.law_changed();
-        report.added.extend(found.into_iter().map(|e| Extension { added: true, ..e }));
-    }
-    better
 }
 
 /// Removes lags that are not significant: a lag may have been significant only before the arm was found.
@@ -89,7 +62,7 @@ pub(crate) fn drop_lags(fitting: &Fitting<'_>, fit: &mut ArmFit, report: &mut Re
 pub(crate) fn candidates(fitting: &Fitting<'_>, fit: &ArmFit) -> Vec<Vec<Parameter>> {
     let arm = &fit.body.arm;
     let modes = 0..arm.modes.len();
-    let mut groups = vec![vec![Parameter::CommandLag], vec![Parameter::ViscousDifference]];
+    let mut groups = vec![vec![Parameter::CommandLag]];
     groups.push(modes.clone().map(Parameter::DampingWithin).collect());
     groups.push(if arm.at_points_per_s.is_empty() {
         modes.map(Parameter::DampingGrounded).collect()

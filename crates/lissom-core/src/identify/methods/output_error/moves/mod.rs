@@ -2,7 +2,6 @@
 
 pub(crate) mod dampers;
 pub(crate) mod extend;
-pub(crate) mod law;
 pub(crate) mod modes;
 pub(crate) mod rigid_points;
 pub(crate) mod scores;

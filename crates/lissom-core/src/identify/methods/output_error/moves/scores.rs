@@ -10,20 +10,6 @@ use crate::identify::thresholds::{CLEARLY_PRESENT, PRESENT};
 use crate::information::{inverse, normal_equations};
 use crate::replay::{Parameter, WindowSums};
 
-/// Expected result of one step of a search in the free parameters and each of some groups.
-pub(crate) fn scores(
-    fitting: &Fitting<'_>,
-    fit: &ArmFit,
-    groups: &[Vec<Parameter>],
-) -> Vec<Vec<Extension>> {
-    all_scores(fitting, fit, groups).1.into_iter().map(|promise| promise.group).collect()
-}
-
-/// Share by which a group is expected to lower the cost.
-pub(crate) fn share(group: &[Extension]) -> f64 {
-    group.first().map_or(0.0, |e| e.share)
-}
-
 /// Expected result of adding a group of parameters.
 pub(crate) struct Promise {
     pub(crate) group: Vec<Extension>,
@@ -39,7 +25,7 @@ pub(crate) struct Promise {
 
 impl Promise {
     pub(crate) fn share(&self) -> f64 {
-        share(&self.group)
+        self.group.first().map_or(0.0, |e| e.share)
     }
 
     /// Whether the group as a whole is significant. Single parameters of it may not be, such as dampers of several
