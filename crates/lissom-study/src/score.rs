@@ -232,10 +232,9 @@ fn is_law_alarm(finding: &Finding) -> bool {
     let says = match &finding.kind {
         FindingKind::Estimate(EstimateFinding::Offset { .. }) => true,
         // No alarm if the estimates are those of the law.
-        FindingKind::FrictionLaw(FrictionLawFinding::FrictionLaw { source, .. }) => !matches!(
-            source,
-            LawSource::SlipPhases { replayed_without: true, .. }
-        ),
+        FindingKind::FrictionLaw(FrictionLawFinding::FrictionLaw { source, .. }) => {
+            !matches!(source, LawSource::SlipPhases { replayed_without: true, .. })
+        }
         _ => false,
     };
     if says {

@@ -51,6 +51,10 @@ pub(crate) fn speeds_of_law(names: UnitNames, id: &Identified) {
         "speeds in the logs, for which the friction law was fitted: {}",
         range(law.speed_range)
     ));
+    line(&format!(
+        "Coulomb and viscous friction are the straight line nearest to the law at speeds of {}",
+        range(law.line_speed_range)
+    ));
     let speeds = || law.curve.iter().map(|p| p.speed);
     if let Some(slowest) = speeds().min_by(f64::total_cmp) {
         let fastest = speeds().fold(slowest, f64::max);

@@ -10,7 +10,7 @@ use crate::replay::{DryTerms, FrictionNumber, NearRestNumber};
 /// Friction, as torque \[N·m\] or force \[N\]; in the unit of the command if the torque constant is unknown.
 ///
 /// The line F = C + V·|v| is what results are compared by: where friction has further terms, it is the line that is nearest
-/// to the whole law at the speeds of the log, weighted with time, without a load.
+/// to the whole law at the speeds and under the mean load of the log, weighted with time.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct Friction {
     /// Coulomb friction of the line, mean of both directions.

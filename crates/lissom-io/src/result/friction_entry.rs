@@ -31,8 +31,11 @@ pub struct FrictionEntry {
     pub coulomb: CoulombEntry,
     /// Viscous friction, without back-EMF if its constant is given.
     pub viscous: Option<EstimateEntry>,
+    /// Slowest and fastest speed of the line of Coulomb and viscous friction, where a law stands beside it.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub speed_range: Option<NumberEntry<[f64; 2]>>,
     /// The law of friction, if it has terms beyond Coulomb and viscous friction; these are then the line that is nearest to it at
-    /// the speeds of the log, without a load, weighted with time.
+    /// the speeds and under the mean load of the log, weighted with time.
     pub law: Option<LawEntry>,
     /// Friction against speed without a law, ascending in speed, forward then backward; only speeds at which slip
     /// phases have data.
@@ -105,9 +108,11 @@ impl FrictionEntry {
         let found = id.friction_law.as_ref();
         let curve = found.map_or(&[][..], |law| &law.curve);
         let speeds = found.map(|law| law.speed_range);
+        let of_line = found.filter(|_| f.law.is_some()).map(|law| law.line_speed_range);
         Self {
             coulomb: CoulombEntry::of(names, f),
             viscous: EstimateEntry::or_null(f.viscous, names.viscous_unit()),
+            speed_range: of_line.map(|v| NumberEntry::of(v, names.speed_unit())),
             law: f.law.as_ref().map(|law| LawEntry::of(names, law, f.offset, speeds)),
             curve: curve
                 .iter()

@@ -57,7 +57,9 @@ pub(super) fn lines(
     let by_all = evidence.methods.least_squares.as_ref().filter(|fit| fit.describes_torque());
     let by_all = by_all.filter(|_| !evidence.rests_on_constant_velocities());
     let by_phases = by_phases.map(|r| (Some(Method::Regression), r.estimates()));
-    by_phases.into_iter().chain(by_all.map(|fit| (Some(Method::LeastSquares), fit.estimates.clone())))
+    by_phases
+        .into_iter()
+        .chain(by_all.map(|fit| (Some(Method::LeastSquares), fit.estimates.clone())))
 }
 
 /// The best solution of slip phases alone: that with a law, or with one viscous coefficient.
@@ -86,8 +88,8 @@ pub(crate) fn slip_phase_terms<'a>(
 }
 
 fn by_output_error(evidence: &Evidence<'_>) -> Option<DriveEstimates> {
-    let speeds = evidence.methods.friction_law.as_ref().map(|law| &law.speeds);
-    Some(evidence.replay()?.estimates_at(&evidence.campaign.channels, speeds))
+    let motion = evidence.methods.friction_law.as_ref().map(|law| &law.motion);
+    Some(evidence.replay()?.estimates_at(&evidence.campaign.channels, motion))
 }
 
 fn by_response_with_modes(evidence: &Evidence<'_>) -> Option<DriveEstimates> {

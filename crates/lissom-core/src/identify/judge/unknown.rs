@@ -84,7 +84,7 @@ fn refuse_the_unknown(evidence: &Evidence<'_>, chosen: &mut Chosen) -> Vec<Findi
     // Coulomb friction is the intercept of the slope. What the log shows is a curve that falls with speed.
     if falls {
         drive.inertia = drive.inertia.filter(|_| drive.friction.law.is_some());
-        let speed = evidence.methods.friction_law.as_ref().map(|law| law.speeds.mean());
+        let speed = evidence.methods.friction_law.as_ref().map(|law| law.motion.mean_speed());
         let line = drive.friction.coulomb.take().zip(slope).zip(speed);
         findings.extend(line.map(|((coulomb, slope), speed)| EstimateFinding::FrictionFalls {
             speed,

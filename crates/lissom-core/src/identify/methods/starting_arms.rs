@@ -45,7 +45,8 @@ pub(crate) fn with_law(
     arms: Vec<ModalArm>,
     usable: &Campaign,
 ) -> Vec<ModalArm> {
-    let cogs = |law: &&LawFit| law.terms.iter().any(|(t, _)| matches!(t, LawTerm::TorqueRipple { .. }));
+    let cogs =
+        |law: &&LawFit| law.terms.iter().any(|(t, _)| matches!(t, LawTerm::TorqueRipple { .. }));
     let Some(law) = law.filter(|law| law.departs() && !cogs(law)) else { return arms };
     let back_emf = usable.channels.command.back_emf_viscous;
     let lawful = arms.iter().filter_map(|arm| {

@@ -8,7 +8,7 @@ use crate::identify::methods::friction_law::candidates::{Candidate, MissingKind,
 use crate::identify::methods::friction_law::choice::{Search, amplitude};
 use crate::identify::methods::friction_law::lag::AngleLag;
 use crate::identify::methods::friction_law::law_term::LawTerm;
-use crate::identify::methods::friction_law::projection::Speeds;
+use crate::identify::methods::friction_law::projection::Motion;
 use crate::identify::methods::friction_law::unadopted::{MissingTerm, Moved, PossibleTerm};
 use crate::identify::methods::regression::{
     Fitted, MotorColumns, PLACE_COULOMB, PLACE_OFFSET, PLACE_VISCOUS, Solution, Terms,
@@ -27,7 +27,7 @@ impl Search<'_> {
     /// beyond them.
     pub(super) fn fit(
         &self,
-        speeds: &Speeds,
+        motion: &Motion,
         lag: Option<AngleLag>,
     ) -> Option<(LawFit, f64, Vec<MissingTerm>)> {
         let (laws, columns) = self.adopted();
@@ -65,7 +65,7 @@ impl Search<'_> {
             let n = candidate.columns.len();
             let mut own: Vec<Estimate> =
                 (at..at + n).map(|i| amplitude(solution, i, 1, candidate.term)).collect();
-            for (weights, by) in weights.iter_mut().zip(speeds.of_term(*term)) {
+            for (weights, by) in weights.iter_mut().zip(motion.of_term(*term)) {
                 weights.push((at, by));
             }
             if matches!(term, LawTerm::NearRest { .. }) {
@@ -118,7 +118,7 @@ impl Search<'_> {
     }
 
     /// The terms that are not known to be absent.
-    pub(super) fn possible(&self, speeds: &Speeds) -> Option<Vec<PossibleTerm>> {
+    pub(super) fn possible(&self, motion: &Motion) -> Option<Vec<PossibleTerm>> {
         let (laws, columns) = self.adopted();
         let solution = &self.rows.solved(&columns)?;
         let total = self.rows.total();
@@ -140,7 +140,7 @@ impl Search<'_> {
             let lost = found.inseparable[first..].iter().any(|lost| *lost);
             if !lost && self.is_possible(&found, &terms) {
                 let projected = |v: &DVector<f64>, all: &[&Candidate]| {
-                    projected_line(v, all, speeds, self.line)
+                    projected_line(v, all, motion, self.line)
                 };
                 let before = projected(&solution.value, &terms[..laws.len()]);
                 let after = projected(&value, &terms);
@@ -177,14 +177,14 @@ impl Search<'_> {
 fn projected_line(
     value: &DVector<f64>,
     terms: &[&Candidate],
-    speeds: &Speeds,
+    motion: &Motion,
     line: usize,
 ) -> Vec<f64> {
     let mut found: Vec<f64> = value.iter().take(line).copied().collect();
     let mut at = line;
     for candidate in terms {
         if let Some(law) = candidate.term.law() {
-            let [level, slope] = speeds.of_term(law);
+            let [level, slope] = motion.of_term(law);
             found[PLACE_COULOMB] += level * value[at];
             found[PLACE_VISCOUS] += slope * value[at];
         }

@@ -36,7 +36,7 @@ pub(crate) use lag::delayed;
 pub use lag::{AngleLag, LagShape};
 pub(crate) use law_term::NEAR_REST_STEP;
 pub use law_term::{LawTerm, ScaleUnit};
-pub(crate) use projection::Speeds;
+pub(crate) use projection::Motion;
 pub use unadopted::{MissingTerm, Moved, MovingTerm};
 pub(crate) use unadopted::{PossibleTerm, widened};
 pub(crate) use unused_torque::Unused;
@@ -75,6 +75,8 @@ pub struct FrictionLaw {
     pub window_s: f64,
     /// Lowest and highest speed of the windows \[rad/s\]; law and curve are valid between these.
     pub speed_range: [f64; 2],
+    /// Slowest and fastest speed of the line of Coulomb and viscous friction that stands for the law \[rad/s\].
+    pub line_speed_range: [f64; 2],
     /// Friction against speed without a law; for each direction ascending in speed.
     pub curve: Vec<CurvePoint>,
     /// All terms that were tried, in order.
@@ -89,8 +91,8 @@ pub struct FrictionLaw {
     pub(crate) possible: Vec<PossibleTerm>,
     /// What line and model leave of blocks that were left out of their fit.
     pub(crate) unused: Unused,
-    /// The speeds of the motor in motion.
-    pub(crate) speeds: Speeds,
+    /// The motion that the line is fitted to.
+    pub(crate) motion: Motion,
     /// Relative residual ‖y − X·q‖/‖y‖ of the line, of the chosen model, and of the curve \[1\].
     pub relative_residual: [f64; 3],
 }
@@ -109,8 +111,8 @@ pub struct LawFit {
     /// Coulomb friction C.
     pub coulomb: Option<Estimate>,
     /// The line C + V·|v| nearest to friction at the speeds of the log, weighted with time, without those slower than a
-    /// twentieth of the fastest, as that of least squares: Coulomb friction, and viscous
-    /// friction. Without terms by speed these are C and V.
+    /// twentieth of the fastest, as that of least squares: Coulomb friction, and viscous friction, under the mean load of the log.
+    /// Without terms by speed or load these are C and V.
     pub projected: [Option<Estimate>; 2],
     /// The same Coulomb friction with the offset, forward and backward.
     pub projected_by_direction: [Option<Estimate>; 2],
@@ -334,7 +336,7 @@ impl<'a> Found<'a> {
 
     /// The terms that are not known to be absent.
     fn possible(&self) -> Option<Vec<PossibleTerm>> {
-        self.search.possible(&Speeds::of(&self.search.sampled.speeds_in_motion()))
+        self.search.possible(&Motion::of(&self.search.sampled.motion())?)
     }
 
     /// The model with the curve, and the sums that the curve is from.
@@ -346,13 +348,15 @@ impl<'a> Found<'a> {
         line: ByBlock,
     ) -> Option<(FrictionLaw, CurveSums)> {
         let Self { search, cut, speeds, line_residual } = self;
-        let quantiles = Speeds::of(&sampled.speeds_in_motion());
-        let (fit, residual, missing) = search.fit(&quantiles, lag)?;
+        let in_motion = sampled.motion();
+        let motion = Motion::of(&in_motion)?;
+        let (fit, residual, missing) = search.fit(&motion, lag)?;
         let sums = CurveSums::new(sampled, cut, speeds, &search.not_by_speed())?;
         let (curve, by_curve) = sums.by_blocks()?;
         let law = FrictionLaw {
             window_s: sampled.window_s,
             speed_range: [*speeds.first()?, *speeds.last()?],
+            line_speed_range: [in_motion.first()?[0], in_motion.last()?[0]],
             curve,
             relative_residual: [*line_residual, residual, by_curve],
             candidates: search.candidates.clone(),
@@ -366,7 +370,7 @@ impl<'a> Found<'a> {
                 power: search.divided.total().power(),
                 cut: *cut,
             },
-            speeds: quantiles,
+            motion,
         };
         Some((law, sums))
     }

@@ -141,23 +141,23 @@ impl<'a> Sampled<'a> {
         most * self.campaign.channels.command.torque_per_unit().abs()
     }
 
-    /// Speeds of the motor in motion, ascending: of samples that are evenly spread over the campaign, without those slower than
-    /// [`SLOWEST_SAMPLE`].
-    pub(super) fn speeds_in_motion(&self) -> Vec<f64> {
+    /// Speed and angle of the motor in motion, by ascending speed: of samples that are evenly spread over the campaign, without
+    /// those slower than [`SLOWEST_SAMPLE`].
+    pub(super) fn motion(&self) -> Vec<[f64; 2]> {
         let runs = || self.campaign.runs.iter().zip(&*self.runs);
-        let of_runs = |of: fn(&Run) -> f64| runs().map(move |(run, _)| of(run));
-        let all_s: f64 = of_runs(|run| run.sample_time_s() * run.len() as f64).sum();
-        let longest_s = of_runs(Run::sample_time_s).fold(0.0, f64::max);
+        let all_s: f64 = runs().map(|(run, _)| run.sample_time_s() * run.len() as f64).sum();
+        let longest_s = runs().map(|(run, _)| run.sample_time_s()).fold(0.0, f64::max);
         let apart_s = longest_s.max(all_s / MOST_ROWS as f64);
-        let of_run = |(run, slipping): (&Run, &'_ Slipping)| {
+        let of_run = |(run, slipping): (&Run, &Slipping)| {
             let step = (apart_s / run.sample_time_s()).round().max(1.0) as usize;
-            slipping.velocity.iter().step_by(step).map(|v| v.abs()).collect::<Vec<_>>()
+            let places = slipping.velocity.iter().zip(run.motor()).step_by(step);
+            places.map(|(v, angle)| [v.abs(), *angle]).collect::<Vec<_>>()
         };
-        let mut speeds: Vec<f64> = runs().flat_map(of_run).collect();
-        speeds.par_sort_unstable_by(f64::total_cmp);
-        let fastest = speeds.last().copied().unwrap_or(0.0);
-        let slow = speeds.partition_point(|v| *v <= SLOWEST_SAMPLE * fastest);
-        speeds.split_off(slow)
+        let mut motion: Vec<[f64; 2]> = runs().flat_map(of_run).collect();
+        motion.par_sort_unstable_by(|a, b| a[0].total_cmp(&b[0]));
+        let fastest = motion.last().map_or(0.0, |[speed, _]| *speed);
+        let slow = motion.partition_point(|[speed, _]| *speed <= SLOWEST_SAMPLE * fastest);
+        motion.split_off(slow)
     }
 
     /// Lowest and highest angle of the windows.

@@ -5,7 +5,7 @@ use crate::identify::drive_estimates::DriveEstimates;
 use crate::identify::estimate::{Estimate, ModeEstimate};
 use crate::identify::friction_estimates::{Friction, LawEstimates};
 use crate::identify::gravity_estimate::Gravity;
-use crate::identify::methods::friction_law::{LawTerm, Speeds, Unused};
+use crate::identify::methods::friction_law::{LawTerm, Motion, Unused};
 use crate::identify::methods::output_error::found::OutputError;
 use crate::identify::methods::output_error::model::describes::{
     accepted_residual, is_left, is_sound,
@@ -20,8 +20,8 @@ impl OutputError {
         self.friction_at(back_emf_viscous, None)
     }
 
-    /// The same with the line that is nearest to the law at some speeds.
-    fn friction_at(&self, back_emf_viscous: f64, speeds: Option<&Speeds>) -> Friction {
+    /// The same with the line that is nearest to the law in some motion.
+    fn friction_at(&self, back_emf_viscous: f64, motion: Option<&Motion>) -> Friction {
         let viscous = |direction: usize| {
             self.estimate_of(|arm| arm.viscous_nm_s_per_rad[direction] - back_emf_viscous)
         };
@@ -36,18 +36,23 @@ impl OutputError {
             ..self.terms()
         };
         let line = |arm: &ModalArm| -> [f64; 2] {
-            let DryTerms { near_rest, root, .. } = &arm.dry_terms;
-            let share = |speed: f64| {
+            let DryTerms { near_rest, root, with_load, .. } = &arm.dry_terms;
+            let by_speed = |speed: f64| {
                 let near = near_rest.map_or(0.0, |near| {
                     near.torque_nm * near.falloff.share(speed / near.speed_rad_s)
                 });
                 near + root.map_or(0.0, |r| r.torque_nm_per_root_rad_s * Root::growth(speed))
             };
-            let [level, slope] = speeds.map_or([0.0; 2], |speeds| speeds.line_of(share));
+            let by_load = |angle: f64| with_load.map_or(0.0, |w| w.coefficient * w.load_nm(angle));
+            let [level, slope] = motion.map_or([0.0; 2], |motion| {
+                let [level, slope] = motion.line_of(by_speed);
+                [level + motion.mean_over_angles(by_load), slope]
+            });
             [arm.coulomb_nm + level, mean(arm) + slope]
         };
         let level = |sign: f64| self.estimate_of(|arm| line(arm)[0] + sign * arm.offset_nm);
-        let moved = speeds.is_some() && (law.near_rest.is_some() || law.root.is_some());
+        let bends = law.near_rest.is_some() || law.root.is_some() || law.with_load.is_some();
+        let moved = motion.is_some() && bends;
         Friction {
             coulomb: if moved { Some(level(0.0)) } else { law.coulomb },
             forward: if moved { Some(level(1.0)) } else { law.forward },
@@ -90,11 +95,11 @@ impl OutputError {
         self.estimates_at(channels, None)
     }
 
-    /// The same with the line of friction at some speeds.
+    /// The same with the line of friction in some motion.
     pub(crate) fn estimates_at(
         &self,
         channels: &Channels,
-        speeds: Option<&Speeds>,
+        motion: Option<&Motion>,
     ) -> DriveEstimates {
         let tips = &channels.tips;
         let known = |i: usize| tips[i].calibrated && tips[i].quantity != TipQuantity::Acceleration;
@@ -105,7 +110,7 @@ impl OutputError {
         });
         let flexible = !self.arm.modes.is_empty();
         DriveEstimates {
-            friction: self.friction_at(channels.command.back_emf_viscous, speeds),
+            friction: self.friction_at(channels.command.back_emf_viscous, motion),
             inertia: self.inertia(),
             coupling: flexible.then(|| self.estimate_of(ModalArm::coupling_nm_per_rad)),
             coupling_by_tip,

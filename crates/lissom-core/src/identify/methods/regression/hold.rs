@@ -2,9 +2,7 @@
 
 use crate::identify::estimate::Estimate;
 use crate::identify::methods::regression::motor::{MotorRegression, motor_regression};
-use crate::identify::methods::regression::thresholds::{
-    HELD_DELAY_MOST, HOLD_MATTERS,
-};
+use crate::identify::methods::regression::thresholds::{HELD_DELAY_MOST, HOLD_MATTERS};
 use crate::identify::options::Options;
 use crate::identify::prepare::prepared::Prepared;
 use crate::identify::thresholds::{CLEARLY_PRESENT, PRESENT, SIGN_SHOWN};
@@ -124,8 +122,8 @@ pub(crate) fn other_hold(
     let changes = |now: Option<Estimate>, then: Option<Estimate>| {
         let (now, then) = (now?, then?);
         let change = (then.value - now.value).abs();
-        let matters = change > PRESENT * now.std.max(then.std)
-            && change > HOLD_MATTERS * now.value.abs();
+        let matters =
+            change > PRESENT * now.std.max(then.std) && change > HOLD_MATTERS * now.value.abs();
         matters.then_some([now, then])
     };
     let found = OtherHold {

@@ -3,10 +3,10 @@
 use nalgebra::{DMatrix, DVector};
 
 use crate::friction::TermScale;
+use crate::identify::methods::friction_law::thresholds::NEAR_REST_MOST;
 use crate::identify::methods::output_error::engine::budget::Budget;
 use crate::identify::methods::output_error::engine::coordinates::{Body, in_coordinates};
 use crate::identify::methods::output_error::engine::noise::is_least;
-use crate::identify::methods::friction_law::thresholds::NEAR_REST_MOST;
 use crate::identify::methods::output_error::engine::windows::{fastest_rad_s, travel};
 use crate::identify::methods::output_error::thresholds::{
     MODE_TURN_MOST, NEAR_REST_SPEED_LEAST, RATE_MOST, RIPPLE_PHASE_LEAST, RIPPLE_PHASE_MOST,
