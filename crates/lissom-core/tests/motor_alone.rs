@@ -105,6 +105,7 @@ fn a_mode_that_is_none_goes() {
     }];
     let start = OutputErrorStart {
         friction_varies: false,
+        further_terms: Vec::new(),
         most_evaluations: Effort::Thorough.most_evaluations(),
         interrupt: Interrupt::default(),
         arms: vec![arm],

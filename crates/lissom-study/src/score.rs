@@ -195,13 +195,19 @@ pub fn score(truth: &Truth, id: &Identified) -> Score {
         warned: named(parameter),
         bound: None,
     };
+    // The truth is the law's own Coulomb and viscous friction.
+    let line = &id.friction;
+    let [coulomb, forward, backward, viscous] = match &line.law {
+        Some(law) => [law.coulomb, law.forward, law.backward, law.viscous],
+        None => [line.coulomb, line.forward, line.backward, line.viscous],
+    };
     let mut estimates = vec![
-        one(ScoredParameter::Coulomb, truth.coulomb_nm, id.friction.coulomb),
-        one(ScoredParameter::Forward, truth.coulomb_by_direction_nm[0], id.friction.forward),
-        one(ScoredParameter::Backward, truth.coulomb_by_direction_nm[1], id.friction.backward),
+        one(ScoredParameter::Coulomb, truth.coulomb_nm, coulomb),
+        one(ScoredParameter::Forward, truth.coulomb_by_direction_nm[0], forward),
+        one(ScoredParameter::Backward, truth.coulomb_by_direction_nm[1], backward),
         one(ScoredParameter::Inertia, truth.inertia_kg_m2, id.inertia),
         one(ScoredParameter::Coupling, truth.coupling_nm_per_rad, id.beam.coupling),
-        one(ScoredParameter::Viscous, truth.viscous_nm_s_per_rad, id.friction.viscous),
+        one(ScoredParameter::Viscous, truth.viscous_nm_s_per_rad, viscous),
     ];
     let modes = matched(&truth.modes, &id.beam.modes);
     for (k, ((omega, zeta), found)) in truth.modes.iter().zip(modes).enumerate() {

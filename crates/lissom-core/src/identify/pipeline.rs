@@ -8,7 +8,7 @@ use crate::identify::findings::{EquivalentFinding, EstimateUnits, Finding, Regre
 use crate::identify::identified::Identified;
 use crate::identify::judge::{Evidence, Methods, conclude, slip_phase_solution, slip_phase_terms};
 use crate::identify::methods::constant_velocity;
-use crate::identify::methods::friction_law::{friction_law, predicts_better};
+use crate::identify::methods::friction_law::{FrictionLaw, friction_law, predicts_better};
 use crate::identify::methods::least_squares::least_squares;
 use crate::identify::methods::output_error::thresholds::COMMAND_NOISE_MOST;
 use crate::identify::methods::output_error::{
@@ -189,8 +189,8 @@ pub fn identify(
         let lag_s = delay.map_or(0.0, |lag| lag.time_s);
         let known = (&drive, &motor, lag_s);
         let arms = starting_arms(replayed.used(), known, beam, tips, &shown, corrected);
-        let arms = with_law(law.map(|law| &law.chosen), arms, replayed.used());
-        let found = output_error(replayed, &start_of(replayed, options, arms, &motor))?;
+        let arms = with_law(law, arms, replayed.used());
+        let found = output_error(replayed, &start_of(replayed, options, arms, (&motor, law)))?;
         let (campaign, noise) = (replayed.used(), replayed.noise());
         let unused =
             law.and_then(|law| law.unused.with_arm(campaign, noise, law.window_s, &found.arm));
@@ -320,7 +320,7 @@ fn start_of(
     prepared: &Prepared<'_>,
     options: &Options,
     arms: Vec<ModalArm>,
-    motor: &MotorRegression,
+    (motor, law): (&MotorRegression, Option<&FrictionLaw>),
 ) -> OutputErrorStart {
     let omega = |&i: &usize| match &prepared.runs()[i].kind {
         RunKind::Sinusoidal(s) => Some(s.omega_rad_s),
@@ -333,5 +333,6 @@ fn start_of(
         most_evaluations: options.evaluations(),
         interrupt: options.interrupt.clone(),
         friction_varies: motor.varies_by().is_some(),
+        further_terms: law.map(FrictionLaw::further_terms).unwrap_or_default(),
     }
 }

@@ -9,7 +9,7 @@ use crate::identify::methods::least_squares::{LeastSquares, least_squares};
 use crate::identify::methods::regression::{MotorRegression, motor_regression};
 use crate::identify::options::Options;
 use crate::identify::prepare::prepared::Prepared;
-use crate::identify::thresholds::CLEARLY_PRESENT;
+use crate::identify::thresholds::SIGN_SHOWN;
 
 /// What slip phases give without a beam.
 pub(crate) struct RigidEquation {
@@ -29,7 +29,7 @@ pub(crate) fn rigid_equation(
 ) -> Option<RigidEquation> {
     // One that is surely negative is of a tip whose sign is reversed.
     let coupling = regression.total_coupling.filter(|c| !c.is_negative())?;
-    if coupling.value > CLEARLY_PRESENT * coupling.std {
+    if coupling.value > SIGN_SHOWN * coupling.std {
         return None;
     }
     let mut used = prepared.used().clone();

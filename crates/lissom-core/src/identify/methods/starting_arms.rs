@@ -1,7 +1,7 @@
 //! The arms from which the output-error method starts.
 
 use crate::identify::drive_estimates::DriveEstimates;
-use crate::identify::methods::friction_law::{LawFit, LawTerm};
+use crate::identify::methods::friction_law::{FrictionLaw, LawTerm};
 use crate::identify::methods::output_error::{
     starts, starts_by_motor, starts_by_responses, with_hidden_mode,
 };
@@ -41,20 +41,23 @@ pub(crate) fn starting_arms(
 
 /// The same arms with the law of friction that predicts best first. Ripples of torque are not estimated by a replay.
 pub(crate) fn with_law(
-    law: Option<&LawFit>,
+    law: Option<&FrictionLaw>,
     arms: Vec<ModalArm>,
     usable: &Campaign,
 ) -> Vec<ModalArm> {
-    let cogs =
-        |law: &&LawFit| law.terms.iter().any(|(t, _)| matches!(t, LawTerm::TorqueRipple { .. }));
-    let Some(law) = law.filter(|law| law.departs() && !cogs(law)) else { return arms };
+    let cogs = |(term, _): &(LawTerm, _)| matches!(term, LawTerm::TorqueRipple { .. });
+    let law = law.map(|law| &law.chosen);
+    let Some(law) = law.filter(|law| law.departs() && !law.terms.iter().any(cogs)) else {
+        return arms;
+    };
     let back_emf = usable.channels.command.back_emf_viscous;
-    let lawful = arms.iter().filter_map(|arm| {
-        // The delay is that of the arm.
+    let lawful = |arm: &ModalArm| {
         let with = law.put_into(arm.clone(), back_emf)?;
+        // The delay is that of the arm.
         Some(ModalArm { command_lag_s: arm.command_lag_s, ..with })
-    });
-    lawful.collect::<Vec<_>>().into_iter().chain(arms).collect()
+    };
+    let lawful: Vec<ModalArm> = arms.iter().filter_map(lawful).collect();
+    lawful.into_iter().chain(arms).collect()
 }
 
 /// An axis without tips with a mode.

@@ -183,6 +183,17 @@ impl LawTerm {
         matches!(self, Self::ViscousByDirection | Self::NearRest { .. } | Self::Root)
     }
 
+    /// Whether an arm's friction has a term of this kind.
+    pub(crate) fn is_in(self, terms: &DryTerms) -> bool {
+        match self {
+            Self::NearRest { .. } => terms.near_rest.is_some(),
+            Self::Ripple { .. } => !terms.ripples.is_empty(),
+            Self::Root => terms.root.is_some(),
+            Self::WithLoad { .. } => terms.with_load.is_some(),
+            Self::ViscousByDirection | Self::TorqueRipple { .. } | Self::CommandLag => false,
+        }
+    }
+
     /// Gives it to an arm's friction, with its amplitudes; does nothing where it is none of these terms.
     pub(crate) fn put_into(self, terms: &mut DryTerms, amplitude: &[f64]) {
         match self {

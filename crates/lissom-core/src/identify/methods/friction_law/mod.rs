@@ -145,6 +145,16 @@ impl FrictionLaw {
         };
         Self { curve, ..self }
     }
+
+    /// Terms with a speed or a period that were tried alone and are not in the law.
+    pub(crate) fn further_terms(&self) -> Vec<LawTerm> {
+        let alone = |name: &str| {
+            let mut tried = self.candidates.iter().filter_map(|c| c.term.law());
+            tried.find(|term| term.name() == name)
+        };
+        let new = |term: &LawTerm| self.chosen.terms.iter().all(|(t, _)| t.name() != term.name());
+        ["near-rest", "ripple"].into_iter().filter_map(alone).filter(new).collect()
+    }
 }
 
 impl LawFit {

@@ -5,7 +5,7 @@ use num_complex::Complex64;
 
 use crate::identify::estimate::Estimate;
 use crate::identify::interrupt::Interrupt;
-use crate::identify::methods::friction_law::Unused;
+use crate::identify::methods::friction_law::{LawTerm, Unused};
 use crate::identify::methods::output_error::engine::by_run::ByRun;
 use crate::identify::methods::output_error::engine::covariance::standard_error;
 use crate::identify::methods::output_error::model::fit::{Extension, StageReport};
@@ -157,4 +157,6 @@ pub struct OutputErrorStart {
     /// Whether the regression in slip phases has found friction that varies from one slip phase
     /// to the next, and nothing else.
     pub friction_varies: bool,
+    /// Terms of friction that slip phases hardly show. They are tried if the residual is above the noise.
+    pub further_terms: Vec<LawTerm>,
 }

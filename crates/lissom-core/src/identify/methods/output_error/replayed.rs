@@ -37,6 +37,7 @@ pub fn output_error(prepared: &Prepared<'_>, start: &OutputErrorStart) -> Option
         campaign,
         masks: &masks,
         blocks: &blocks,
+        further_terms: &start.further_terms,
         noise: &noise,
         budget: &budget,
         widening: WINDOW_WIDENING,

@@ -17,7 +17,7 @@ use crate::identify::methods::output_error::model::fit::{ArmFit, Report};
 use crate::identify::methods::output_error::model::fitting::{Fitting, some};
 use crate::identify::methods::output_error::model::left_over::left_over;
 use crate::identify::methods::output_error::moves::dampers::{dampers_at_points, drop_dampers};
-use crate::identify::methods::output_error::moves::extend::{drop_lags, extend};
+use crate::identify::methods::output_error::moves::extend::{add_terms, drop_lags, extend};
 use crate::identify::methods::output_error::moves::modes;
 use crate::identify::methods::output_error::moves::rigid_points::tighten;
 use crate::identify::methods::output_error::thresholds::{
@@ -82,14 +82,14 @@ fn likely_first(fitting: &Fitting<'_>, start: &OutputErrorStart) -> Vec<ModalArm
     kept.into_iter().map(|i| start.arms[i].clone()).collect()
 }
 
-/// Whether two arms have the same lag and modes, and both or neither have friction terms beyond the simplest law.
+/// Whether two arms have the same lag, modes, and terms of friction.
 fn are_alike(a: &ModalArm, b: &ModalArm) -> bool {
     let near = |(p, q): (&Oscillator, &Oscillator)| {
         (p.omega_rad_s / q.omega_rad_s - 1.0).abs() < STARTS_ALIKE
             && (p.stiffness_nm_per_rad / q.stiffness_nm_per_rad - 1.0).abs() < STARTS_ALIKE
     };
     let lag_s = a.command_lag_s.abs().max(b.command_lag_s.abs());
-    a.dry_terms.is_empty() == b.dry_terms.is_empty()
+    a.dry_terms.numbers() == b.dry_terms.numbers()
         && (a.command_lag_s - b.command_lag_s).abs() <= STARTS_ALIKE * lag_s
         && a.modes.len() == b.modes.len()
         && a.modes.iter().zip(&b.modes).all(near)
@@ -128,12 +128,14 @@ fn complete(fitting: &Fitting<'_>, fit: &mut ArmFit, report: &mut Report) {
         make(extend, fitting, fit, report);
         make(modes::grow, fitting, fit, report);
         if fit.body.arm.modes.is_empty() {
+            make(add_terms, fitting, fit, report);
             return;
         }
     } else {
         make(modes::grow, fitting, fit, report);
     }
     make(extend, fitting, fit, report);
+    make(add_terms, fitting, fit, report);
 }
 
 /// A step of the schedule.

@@ -2,6 +2,7 @@
 
 use rayon::prelude::*;
 
+use crate::identify::methods::friction_law::LawTerm;
 use crate::identify::methods::output_error::engine::budget::Budget;
 use crate::identify::methods::output_error::engine::coordinates::Body;
 use crate::identify::methods::output_error::engine::covariance::Covariances;
@@ -31,6 +32,8 @@ pub(crate) struct Fitting<'a> {
     pub(crate) campaign: &'a Campaign,
     pub(crate) masks: &'a [Masks],
     pub(crate) blocks: &'a [Blocks],
+    /// Terms of friction that slip phases hardly show.
+    pub(crate) further_terms: &'a [LawTerm],
     /// Noise of each channel, estimated from its samples alone.
     pub(crate) noise: &'a [SensorNoise],
     /// Limit of evaluations of the whole search.

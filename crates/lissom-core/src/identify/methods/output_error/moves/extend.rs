@@ -37,6 +37,28 @@ pub(crate) fn extend(fitting: &Fitting<'_>, fit: &mut ArmFit, report: &mut Repor
     }
 }
 
+/// Adds terms of friction that slip phases hardly show, if the residual is above the noise and the arm is better with them.
+pub(crate) fn add_terms(fitting: &Fitting<'_>, fit: &mut ArmFit, report: &mut Report) {
+    for term in fitting.further_terms {
+        let spent = fitting.budget.is_spent();
+        if spent || fitting.beyond_noise(fit) < RESIDUAL_ABOVE_NOISE {
+            return;
+        }
+        if term.is_in(&fit.body.arm.dry_terms) {
+            continue;
+        }
+        let mut with = fit.clone();
+        let before = with.body.arm.dry_terms.numbers();
+        term.put_into(&mut with.body.arm.dry_terms, &[0.0; 2]);
+        let all = with.body.arm.dry_terms.numbers().into_iter();
+        with.free.extend(all.filter(|n| !before.contains(n)).map(Parameter::Friction));
+        fitting.search(&mut with, report);
+        if fitting.is_better(&with, fit) {
+            *fit = with;
+        }
+    }
+}
+
 /// Removes lags that are not significant: a lag may have been significant only before the arm was found.
 pub(crate) fn drop_lags(fitting: &Fitting<'_>, fit: &mut ArmFit, report: &mut Report) {
     let covariance = fitting.covariances(fit).larger();
