@@ -1,10 +1,10 @@
 //! Modes of the beam: which method's are taken.
 
-use crate::identify::drive_estimates::DriveEstimates;
+use crate::identify::drive_estimates::{DriveEstimates, Method};
 use crate::identify::estimate::ModeEstimate;
 use crate::identify::findings::{BeamFinding, Finding};
 use crate::identify::identified::BeamEstimates;
-use crate::identify::judge::evidence::Evidence;
+use crate::identify::judge::evidence::{Chosen, Evidence};
 use crate::identify::judge::thresholds::MODEL_MISFIT;
 use crate::identify::judge::thresholds::TIPS_COMPLETE;
 use crate::identify::methods::output_error::OutputError;
@@ -14,6 +14,17 @@ use crate::identify::prepare::run_analysis::RunKind;
 /// Whether the beam's equations on the measured tips explain their motion.
 pub(super) fn complete(r: &BeamRegression) -> bool {
     r.relative_residual.iter().all(|left| *left < TIPS_COMPLETE)
+}
+
+impl Chosen {
+    /// The whole solution of a method for the drive, with the modes beside it.
+    pub(super) fn of(
+        evidence: &Evidence<'_>,
+        (method, solution): (Option<Method>, DriveEstimates),
+    ) -> Self {
+        let beam = choose(evidence, &solution);
+        Self { method, drive: solution.clone(), solution, beam }
+    }
 }
 
 /// A method in the order of trust: the first that offers modes which nothing speaks against is taken.

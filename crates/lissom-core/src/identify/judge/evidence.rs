@@ -2,7 +2,6 @@
 
 use crate::identify::drive_estimates::{DriveEstimates, Method};
 use crate::identify::identified::BeamEstimates;
-use crate::identify::judge::beam_choice;
 use crate::identify::methods::constant_velocity::ConstantVelocity;
 use crate::identify::methods::friction_law::{FrictionLaw, MissingTerm};
 use crate::identify::methods::least_squares::LeastSquares;
@@ -81,15 +80,4 @@ pub(crate) struct Chosen {
     pub(crate) drive: DriveEstimates,
     /// Modes, and the coupling of `drive`.
     pub(crate) beam: BeamEstimates,
-}
-
-impl Chosen {
-    /// The whole solution of a method.
-    pub(super) fn of(
-        evidence: &Evidence<'_>,
-        (method, solution): (Option<Method>, DriveEstimates),
-    ) -> Self {
-        let beam = beam_choice::choose(evidence, &solution);
-        Self { method, drive: solution.clone(), solution, beam }
-    }
 }

@@ -86,6 +86,8 @@ pub(super) fn runs_left_out(
         let residual = own_left / of_others;
         let told = residual.is_finite() && !solution.inseparable.iter().any(|lost| *lost);
         let (value, covariance) = (solution.value, solution.covariance);
+        // A run that is the only one to show a parameter is not unlike the others: these may move towards it by so many of
+        // their standard errors.
         let wide = &covariance * PRESENT.powi(2);
         let misfit = sums.misfit(&value, &wide, of_others).unwrap_or(0.0);
         let difference = sums.difference(&value, own_left, of_others);
