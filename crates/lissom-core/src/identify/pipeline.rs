@@ -141,18 +141,23 @@ pub fn identify(
     let (prepared, line_of_runs) = regression_of_like_runs(prepared, options);
     let mut any_regression = line_of_runs.filter(|r| !doubted || is_sound_alone(r));
     progress(Stage::Beam);
-    if let Some(rigid) = &any_regression
-        && let Some(flexible) = &rigid.with_mode
-        && predicts_better((&prepared, flexible), (&prepared, rigid))
-    {
-        let (left_out, beside_others) = (rigid.left_out.clone(), rigid.beside_others.clone());
-        any_regression = Some(MotorRegression { left_out, beside_others, ..(**flexible).clone() });
-    }
     // Each loops over the runs on all threads, and leaves some of them idle between its loops.
-    let (model, beside) = rayon::join(
+    let (mut model, beside) = rayon::join(
         || any_regression.as_ref().and_then(|r| friction_law(&prepared, r)),
         || (beam_regression(&prepared), third_harmonic(&prepared)),
     );
+    if let Some(rigid) = &any_regression
+        && let Some(flexible) = &rigid.with_mode
+    {
+        let with_mode = friction_law(&prepared, flexible);
+        let [law, with] = [&model, &with_mode].map(|model| model.as_ref().map(|(law, _)| law));
+        if predicts_better((flexible, with), (&prepared, rigid, law)) {
+            let (left_out, beside_others) = (rigid.left_out.clone(), rigid.beside_others.clone());
+            let flexible = (**flexible).clone();
+            any_regression = Some(MotorRegression { left_out, beside_others, ..flexible });
+            model = with_mode;
+        }
+    }
     let sound = any_regression.as_ref().filter(|r| r.relative_residual < REFUSED_TORQUE);
     let hold = sound.and_then(|r| assumed_hold(prepared.used(), options, r));
     let possible = model.as_ref().map_or_else(Vec::new, |(model, _)| model.possible.clone());
@@ -204,7 +209,8 @@ pub fn identify(
         output_error.map(|(oe, unused)| oe.beside_regression(doubted, varies).beside_line(unused));
     let stands = output_error.as_ref().is_some_and(OutputError::stands);
     let rigid = regression.as_ref().filter(|_| !stands);
-    let rigid = rigid.and_then(|r| rigid_equation(&prepared, options, r));
+    let by_law = law.as_ref().map(|(law, _)| law);
+    let rigid = rigid.and_then(|r| rigid_equation(&prepared, options, r, by_law));
     let (without_coupling, regression, law, line) = match rigid {
         None => {
             let regression = regression.map(|r| MotorRegression { possible, ..r });

@@ -26,6 +26,7 @@ pub(crate) fn rigid_equation(
     prepared: &Prepared<'_>,
     options: &Options,
     regression: &MotorRegression,
+    law: Option<&FrictionLaw>,
 ) -> Option<RigidEquation> {
     // One that is surely negative is of a tip whose sign is reversed.
     let coupling = regression.total_coupling.filter(|c| !c.is_negative())?;
@@ -37,12 +38,14 @@ pub(crate) fn rigid_equation(
     let rigid = prepared.using(used);
     let found = motor_regression(&rigid, options)?;
     let residual_shares = [regression.relative_residual, found.relative_residual];
-    if predicts_better((prepared, regression), (&rigid, &found)) {
+    let rigid_law = friction_law(&rigid, &found);
+    let without = (&rigid, &found, rigid_law.as_ref().map(|(law, _)| law));
+    if predicts_better((regression, law), without) {
         return None;
     }
     let units = EstimateUnits::new(&prepared.campaign().channels);
     let finding = BeamFinding::RigidEquation { coupling, units, residual_shares };
-    let law = friction_law(&rigid, &found);
+    let law = rigid_law;
     let line = least_squares(&rigid, Some(found.window_s));
     let possible = law.as_ref().map_or_else(Vec::new, |(law, _)| law.possible.clone());
     let regression = MotorRegression { possible, ..found };

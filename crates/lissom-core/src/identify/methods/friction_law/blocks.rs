@@ -53,15 +53,17 @@ pub(super) enum Regressor {
     Size(Acts),
 }
 
+/// Parts of the campaign whose sums are made at the same time.
+const PARTS: usize = 8;
+
 /// Windows of one block and one kind of motion.
 #[derive(Debug, Clone)]
-pub(super) struct Unit {
-    pub(super) run: usize,
-    pub(super) block: usize,
+struct Unit {
+    run: usize,
+    block: usize,
     /// Direction × third of the speeds × half of the travel.
-    pub(super) kind: usize,
+    kind: usize,
     rows: Range<usize>,
-    gram: Gram,
 }
 
 /// Products of columns, the right side last, and what noise of the sensors adds to them in expectation.
@@ -78,10 +80,51 @@ impl Gram {
         Self { products: zeros.clone(), noise: zeros, rows: 0 }
     }
 
-    pub(super) fn add(&mut self, other: &Self) {
+    fn add(&mut self, other: &Self) {
         self.products += &other.products;
         self.noise += &other.noise;
         self.rows += other.rows;
+    }
+
+    /// Sums of some, each of a group.
+    pub(super) fn by_group<'a>(
+        groups: usize,
+        width: usize,
+        each: impl Iterator<Item = (usize, &'a Self)>,
+    ) -> Vec<Self> {
+        let mut sums = vec![Self::zeros(width); groups];
+        each.for_each(|(group, one)| sums[group].add(one));
+        sums
+    }
+
+    /// With `more` columns before the right side, of products that are not known yet.
+    fn widened(&mut self, more: usize) {
+        let at = self.products.ncols() - 1;
+        for sums in [&mut self.products, &mut self.noise] {
+            let taken = std::mem::take(sums);
+            *sums = taken.insert_columns(at, more, 0.0).insert_rows(at, more, 0.0);
+        }
+    }
+
+    /// With the first `width` columns and the right side.
+    fn narrowed(&mut self, width: usize) {
+        let gone = self.products.ncols() - 1 - width;
+        for sums in [&mut self.products, &mut self.noise] {
+            let taken = std::mem::take(sums);
+            *sums = taken.remove_columns(width, gone).remove_rows(width, gone);
+        }
+    }
+
+    /// Adds products of some columns, and what noise adds to them.
+    fn add_products(&mut self, pairs: &[(usize, usize)], sums: &[[f64; 2]]) {
+        for (&(i, j), [product, noise]) in pairs.iter().zip(sums) {
+            self.products[(i, j)] += product;
+            self.noise[(i, j)] += noise;
+            if i != j {
+                self.products[(j, i)] += product;
+                self.noise[(j, i)] += noise;
+            }
+        }
     }
 
     /// Without the rows of a part of it.
@@ -160,9 +203,13 @@ impl Gram {
 pub(super) struct BlockRows {
     columns: Vec<Vec<f64>>,
     right: Vec<f64>,
-    pub(super) units: Vec<Unit>,
-    /// Number of blocks; they are in the order of time, run after run.
-    pub(super) blocks: usize,
+    units: Vec<Unit>,
+    /// Sums of each block; they are in the order of time, run after run.
+    pub(super) blocks: Vec<Gram>,
+    /// The run of each.
+    pub(super) run_of_block: Vec<usize>,
+    /// Sums of each kind of motion.
+    pub(super) kinds: Vec<Gram>,
     /// Where each row is among the sampled windows.
     order: Vec<usize>,
     signs: Vec<f64>,
@@ -173,17 +220,32 @@ pub(super) struct BlockRows {
 impl BlockRows {
     /// The columns of the line: J, V, C, offset, κ_i, g_s, g_c.
     pub(super) fn of(sampled: &Sampled<'_>, cut: &Cut) -> Self {
-        let (units, order, blocks) = units(sampled, cut);
+        let (units, order) = units(sampled, cut);
         let signs: Vec<f64> = order.iter().map(|&i| sampled.places()[i].sign).collect();
         let own = MotorColumns::of(sampled.campaign).count();
         let equation = sampled.equation_rows();
         let right = order.iter().map(|&i| equation[i * (own + 1) + own]).collect();
         let (columns, noisy) = (Vec::new(), Vec::new());
-        let mut found = Self { columns, right, units, blocks, order, signs, noisy };
+        let mut kinds = vec![Gram::zeros(1); Cut::KINDS];
+        let mut blocks = vec![Gram::zeros(1); units.last().map_or(0, |unit| unit.block + 1)];
+        let mut run_of_block = vec![0; blocks.len()];
+        for unit in &units {
+            kinds[unit.kind].rows += unit.rows.len();
+            blocks[unit.block].rows += unit.rows.len();
+            run_of_block[unit.block] = unit.run;
+        }
+        let mut found =
+            Self { columns, right, units, blocks, run_of_block, kinds, order, signs, noisy };
+        found.sum(sampled, &[(0, 0)]);
         let mut line: Vec<_> = (0..own).map(|i| Regressor::Own(i, Acts::Alike)).collect();
         line.insert(PLACE_COULOMB, Regressor::Own(PLACE_COULOMB, Acts::Against));
         found.add(sampled, &line, &[]);
         found
+    }
+
+    /// Number of runs.
+    pub(super) fn runs(&self) -> usize {
+        self.run_of_block.last().map_or(0, |last| last + 1)
     }
 
     /// Number of columns.
@@ -203,7 +265,7 @@ impl BlockRows {
         let lag = MotorColumns::of(sampled.campaign).count();
         let own = |window: usize, column: usize| equation[window * (lag + 1) + column];
         let sizes = self.sizes(lag + 1, further);
-        let mut place = 0;
+        let (mut place, old) = (0, self.width());
         for regressor in further {
             let at_row = |at: usize, i: usize, acts: Acts| -> f64 {
                 acts.factor(self.signs[at])
@@ -224,7 +286,11 @@ impl BlockRows {
             self.noisy.push(source.map(|column| (column, acts)));
             place += usize::from(function(regressor).is_some());
         }
-        self.sum(sampled);
+        self.grams().for_each(|gram| gram.widened(further.len()));
+        let right = self.width();
+        let with_own = |i: usize| (0..=i).chain([right]).map(move |j| (i, j));
+        let pairs: Vec<(usize, usize)> = (old..right).flat_map(with_own).collect();
+        self.sum(sampled, &pairs);
     }
 
     /// Size of the torque that the line of `width` columns gives in each row; empty if no regressor needs it.
@@ -240,86 +306,80 @@ impl BlockRows {
     }
 
     /// Drops the columns from `width` on.
-    pub(super) fn truncate(&mut self, sampled: &Sampled<'_>, width: usize) {
+    pub(super) fn truncate(&mut self, width: usize) {
         self.columns.truncate(width);
         self.noisy.truncate(width);
-        self.sum(sampled);
+        self.grams().for_each(|gram| gram.narrowed(width));
     }
 
-    fn sum(&mut self, sampled: &Sampled<'_>) {
-        let Self { columns, right, noisy, signs, .. } = &*self;
+    fn grams(&mut self) -> impl Iterator<Item = &mut Gram> {
+        self.blocks.iter_mut().chain(&mut self.kinds)
+    }
+
+    /// Adds the products of pairs of columns, the right side last, to the sums of blocks and kinds.
+    fn sum(&mut self, sampled: &Sampled<'_>, pairs: &[(usize, usize)]) {
+        let Self { columns, right, units, noisy, signs, .. } = &*self;
         let all: Vec<&[f64]> = columns.iter().chain([right]).map(Vec::as_slice).collect();
-        let grams: Vec<Gram> = self
-            .units
-            .par_iter()
-            .map(|unit| {
-                let known = &unit.gram;
-                let range = unit.rows.clone();
-                let old = known.products.ncols().saturating_sub(1).min(columns.len());
-                let last = all.len() - 1;
-                let place = |i: usize| if i == last { known.products.ncols() - 1 } else { i };
-                let is_known = |i: usize| known.rows > 0 && (i < old || i == last);
-                let mut products = DMatrix::zeros(all.len(), all.len());
-                for i in 0..all.len() {
-                    for j in 0..=i {
-                        let value = if is_known(i) && is_known(j) {
-                            known.products[(place(i), place(j))]
-                        } else {
-                            dot(&all[i][range.clone()], &all[j][range.clone()])
-                        };
-                        (products[(i, j)], products[(j, i)]) = (value, value);
-                    }
+        let of_unit = |unit: &Unit, add: &mut dyn FnMut(usize, [f64; 2])| {
+            let of_row = sampled.noise_of_row(unit.run);
+            let (range, sign) = (unit.rows.clone(), signs[unit.rows.start]);
+            let source = |i: usize| match noisy.get(i) {
+                Some(source) => source.map(|(c, acts)| (c, acts.factor(sign))),
+                None => Some((of_row.ncols() - 1, 1.0)),
+            };
+            let sources: Vec<_> = (0..all.len()).map(source).collect();
+            for (place, &(i, j)) in pairs.iter().enumerate() {
+                let product = dot(&all[i][range.clone()], &all[j][range.clone()]);
+                let noise = sources[i].zip(sources[j]);
+                let noise = noise.map_or(0.0, |((a, f), (b, g))| f * g * of_row[(a, b)]);
+                add(place, [product, noise * range.len() as f64]);
+            }
+        };
+        let by_block: Vec<&[Unit]> = units.chunk_by(|a, b| a.block == b.block).collect();
+        let none = vec![[0.0; 2]; pairs.len()];
+        let of_part = |part: &[&[Unit]]| {
+            let mut kinds = vec![none.clone(); Cut::KINDS];
+            let mut blocks = vec![none.clone(); part.len()];
+            for (block, units) in blocks.iter_mut().zip(part) {
+                for unit in *units {
+                    of_unit(unit, &mut |place, [product, noise]| {
+                        for sums in [&mut block[place], &mut kinds[unit.kind][place]] {
+                            sums[0] += product;
+                            sums[1] += noise;
+                        }
+                    });
                 }
-                let of_row = sampled.noise_of_row(unit.run);
-                let sign = signs[range.start];
-                let source = |i: usize| match noisy.get(i) {
-                    Some(source) => source.map(|(c, acts)| (c, acts.factor(sign))),
-                    None => Some((of_row.ncols() - 1, 1.0)),
-                };
-                let noise = DMatrix::from_fn(all.len(), all.len(), |i, j| {
-                    let both = source(i).zip(source(j));
-                    both.map_or(0.0, |((a, f), (b, g))| f * g * of_row[(a, b)] * range.len() as f64)
-                });
-                Gram { products, noise, rows: range.len() }
-            })
-            .collect();
-        for (unit, gram) in self.units.iter_mut().zip(grams) {
-            unit.gram = gram;
-        }
-    }
-
-    /// Sums of the units of each group; units of no group are left out.
-    pub(super) fn groups(
-        &self,
-        groups: usize,
-        group: impl Fn(&Unit) -> Option<usize>,
-    ) -> Vec<Gram> {
-        let mut sums = vec![Gram::zeros(self.width() + 1); groups];
-        for unit in &self.units {
-            if let Some(group) = group(unit) {
-                sums[group].add(&unit.gram);
+            }
+            (blocks, kinds)
+        };
+        let parts = by_block.par_chunks(by_block.len().div_ceil(PARTS).max(1)).map(of_part);
+        let mut block = 0;
+        for (blocks, kinds) in parts.collect::<Vec<_>>() {
+            for sums in blocks {
+                self.blocks[block].add_products(pairs, &sums);
+                block += 1;
+            }
+            for (gram, sums) in self.kinds.iter_mut().zip(kinds) {
+                gram.add_products(pairs, &sums);
             }
         }
-        sums
     }
 
     /// Sums of all rows.
     pub(super) fn total(&self) -> Gram {
         let mut sum = Gram::zeros(self.width() + 1);
-        self.units.iter().for_each(|unit| sum.add(&unit.gram));
+        self.kinds.iter().for_each(|kind| sum.add(kind));
         sum
     }
 
     /// Least squares of some columns, with a covariance by the scatter between blocks.
     pub(super) fn solved(&self, columns: &[usize]) -> Option<Solution> {
         let sums = self.total().sums(columns)?;
-        let blocks = self.groups(self.blocks, |unit| Some(unit.block));
-        let mut run_of = vec![0; self.blocks];
-        self.units.iter().for_each(|unit| run_of[unit.block] = unit.run);
-        let runs = run_of.iter().max().map_or(0, |last| last + 1);
+        let (blocks, run_of) = (&self.blocks, &self.run_of_block);
+        let runs = self.runs();
         solve_sums(&sums, |ScoredEstimates { value, out, taken }| {
             let p = columns.len();
-            let mut by_cluster = DMatrix::zeros(p, self.blocks);
+            let mut by_cluster = DMatrix::zeros(p, blocks.len());
             let mut by_run = DMatrix::zeros(p, runs);
             let mut normals = Vec::new();
             for (at, block) in blocks.iter().enumerate() {
@@ -334,7 +394,7 @@ impl BlockRows {
                 by_cluster.set_column(at, &score);
                 let mut of_run = by_run.column_mut(run_of[at]);
                 of_run += score;
-                if self.blocks <= FEW_CLUSTERS {
+                if blocks.len() <= FEW_CLUSTERS {
                     normals.push(normal);
                 }
             }
@@ -345,9 +405,7 @@ impl BlockRows {
     /// With some columns, times what is known of them, taken off the right side.
     pub(super) fn less(&self, known: &[(usize, f64)]) -> Self {
         let mut found = self.clone();
-        for unit in &mut found.units {
-            unit.gram = unit.gram.less(known);
-        }
+        found.grams().for_each(|gram| *gram = gram.less(known));
         found
     }
 
@@ -388,10 +446,10 @@ fn dot(a: &[f64], b: &[f64]) -> f64 {
     sums.iter().sum::<f64>() + rest
 }
 
-/// The units of the sampled windows, the windows in their order, and the number of blocks.
+/// The units of the sampled windows, and the windows in their order.
 ///
 /// A block is a group of neighbouring slip phases of one run; of few phases each is cut into parts.
-fn units(sampled: &Sampled<'_>, cut: &Cut) -> (Vec<Unit>, Vec<usize>, usize) {
+fn units(sampled: &Sampled<'_>, cut: &Cut) -> (Vec<Unit>, Vec<usize>) {
     let places = sampled.places();
     let phases = places.last().map_or(0, |place| place.phase + 1);
     let together = phases.div_ceil(MOST_BLOCKS).max(1);
@@ -424,12 +482,11 @@ fn units(sampled: &Sampled<'_>, cut: &Cut) -> (Vec<Unit>, Vec<usize>, usize) {
         let same = units.last().is_some_and(|unit| (unit.block, unit.kind) == (*block, *kind));
         if !same {
             let (run, rows) = (places[*i].run, at..at);
-            units.push(Unit { run, block: *block, kind: *kind, rows, gram: Gram::zeros(0) });
+            units.push(Unit { run, block: *block, kind: *kind, rows });
         }
         if let Some(unit) = units.last_mut() {
             unit.rows.end = at + 1;
         }
     }
-    let blocks = keyed.last().map_or(0, |(block, _, _)| block + 1);
-    (units, keyed.into_iter().map(|(_, _, i)| i).collect(), blocks)
+    (units, keyed.into_iter().map(|(_, _, i)| i).collect())
 }

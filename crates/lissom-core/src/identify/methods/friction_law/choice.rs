@@ -5,6 +5,8 @@
 //! the difference, and whole kinds of motion that were left out better, too. A period or a speed is chosen in one half of the
 //! blocks and judged in the other.
 
+use rayon::prelude::*;
+
 use crate::identify::estimate::Estimate;
 use crate::identify::methods::friction_law::blocks::{BlockRows, Gram, Regressor};
 use crate::identify::methods::friction_law::candidates::{
@@ -139,7 +141,7 @@ impl<'a> Search<'a> {
         let mut offers: Vec<Vec<Offer>> = self.open().map(|f| vec![self.offer(f, &[])]).collect();
         offers.extend(self.offer_ripples(&[]));
         let mut judged: Vec<Judged> =
-            offers.into_iter().filter_map(|offers| self.judged(offers, &before)).collect();
+            offers.into_par_iter().filter_map(|offers| self.judged(offers, &before)).collect();
         self.note(&judged);
         if !judged.iter().any(|j| j.accepted) {
             judged = self.pairs(&before);
@@ -149,7 +151,7 @@ impl<'a> Search<'a> {
             .filter(|j| j.accepted)
             .max_by(|a, b| a.improvement.saved.total_cmp(&b.improvement.saved));
         let Some(best) = best else {
-            self.rows.truncate(self.sampled, width);
+            self.rows.truncate(width);
             return false;
         };
         self.adopt(best, width);
@@ -183,16 +185,12 @@ impl<'a> Search<'a> {
         }
     }
 
-    /// What speaks for the terms of some offers together.
+    /// What speaks for the terms of some offers together; `None` for several that do not predict better.
     fn judged(&self, offers: Vec<Offer>, before: &LeftOut) -> Option<Judged> {
         let of = |half: Option<usize>| -> Vec<usize> {
             self.with(&offers.iter().map(|o| o.of(half)).collect::<Vec<_>>())
         };
         let all = of(None);
-        let solution = self.rows.solved(&all)?;
-        if solution.inseparable[self.line..].iter().any(|lost| *lost) {
-            return None;
-        }
         let after = self.divided.left_out(&all)?;
         let scanned = offers.iter().any(|o| o.halves[0] != o.all || o.halves[1] != o.all);
         let improvement = if scanned {
@@ -204,6 +202,13 @@ impl<'a> Search<'a> {
             Improvement::between(&before.by_block, &after.by_block)
         };
         let across_kinds = after.is_better_across_kinds(before);
+        if offers.len() > 1 && !(improvement.is_sure && across_kinds) {
+            return None;
+        }
+        let solution = self.rows.solved(&all)?;
+        if solution.inseparable[self.line..].iter().any(|lost| *lost) {
+            return None;
+        }
         let terms: Vec<&Candidate> =
             self.taken.iter().chain(offers.iter().map(|o| &o.all)).collect();
         let accepted = improvement.is_sure && across_kinds && self.is_possible(&solution, &terms);
@@ -213,14 +218,15 @@ impl<'a> Search<'a> {
     /// Pairs of open families, none of which predicts better alone: each with a lag or one another.
     fn pairs(&mut self, before: &LeftOut) -> Vec<Judged> {
         let open: Vec<Family> = self.open().cloned().collect();
-        let mut judged = Vec::new();
-        for (i, one) in open.iter().enumerate() {
-            for other in &open[i + 1..] {
-                let first = self.offer(one, &[]);
-                let second = self.offer(other, &[&first]);
-                judged.extend(self.judged(vec![first, second], before));
-            }
-        }
+        let both = |(one, other): (&Family, &Family)| {
+            let first = self.offer(one, &[]);
+            let second = self.offer(other, &[&first]);
+            self.judged(vec![first, second], before)
+        };
+        let each = open.iter().enumerate();
+        let pairs: Vec<_> =
+            each.flat_map(|(i, one)| open[i + 1..].iter().map(move |o| (one, o))).collect();
+        let mut judged: Vec<Judged> = pairs.into_par_iter().filter_map(both).collect();
         if let Some(lag) = open.iter().find(|f| is_lag(&f[0])) {
             let lag = &lag[0];
             for ripples in self.offer_ripples(&[lag]) {
@@ -286,7 +292,7 @@ impl<'a> Search<'a> {
             }
             first += count;
         }
-        self.rows.truncate(self.sampled, width);
+        self.rows.truncate(width);
         for candidate in taken {
             match candidate.term.law().filter(|law| law.scale().is_some()) {
                 Some(law) => self.take_scanned(law),

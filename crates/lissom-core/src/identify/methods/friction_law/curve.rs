@@ -204,9 +204,8 @@ impl CurveSums {
 /// block may belong together as they like, and a few phases that carry much count fully.
 fn jackknife(rows: &BlockRows, columns: &[usize], full: &Solution) -> Option<Vec<f64>> {
     let total = rows.total();
-    let blocks: Vec<Gram> = rows.groups(rows.blocks, |unit| Some(unit.block));
     let without = |block: &Gram| total.without(block).values(columns);
-    let estimates: Vec<_> = blocks.iter().map(without).collect::<Option<_>>()?;
+    let estimates: Vec<_> = rows.blocks.iter().map(without).collect::<Option<_>>()?;
     let square = |i: usize| estimates.iter().map(|v| (v[i] - full.value[i]).powi(2)).sum();
     Some((0..columns.len()).map(square).collect())
 }

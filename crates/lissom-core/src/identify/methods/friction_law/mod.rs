@@ -91,6 +91,9 @@ pub struct FrictionLaw {
     pub(crate) possible: Vec<PossibleTerm>,
     /// What line and model leave of blocks that were left out of their fit.
     pub(crate) unused: Unused,
+    /// Squared residuals of left-out blocks in the windows of the regression, as shares of the squared torque; `None` if these
+    /// windows are too few.
+    left_out_of_regression: Option<ByBlock>,
     /// The motion that the line is fitted to.
     pub(crate) motion: Motion,
     /// Relative residual ‖y − X·q‖/‖y‖ of the line, of the chosen model, and of the curve \[1\].
@@ -190,7 +193,18 @@ struct Source<'a> {
     load: Option<GravityLoad>,
 }
 
-impl Source<'_> {
+impl<'a> Source<'a> {
+    /// In the windows of a regression.
+    fn of(prepared: &'a Prepared<'_>, motor: &MotorRegression) -> Self {
+        Self {
+            campaign: prepared.used(),
+            noise: prepared.noise(),
+            window_s: motor.window_s,
+            mode: motor.mode.map(|m| m.shape()),
+            load: motor.gravity.map(|g| g.load()),
+        }
+    }
+
     fn sampled(&self) -> Sampled<'_> {
         let mut sampled = Sampled::new(self.campaign, self.noise, self.window_s, self.mode);
         sampled.load = self.load;
@@ -205,15 +219,13 @@ pub(crate) fn friction_law(
     motor: &MotorRegression,
 ) -> Option<(FrictionLaw, CurveSums)> {
     let inertia = motor.inertia?.value;
-    let (campaign, noise) = (prepared.used(), prepared.noise());
-    let load = motor.gravity.map(|g| g.load());
-    let mode = motor.mode.map(|m| m.shape());
-    let source = Source { campaign, noise, window_s: motor.window_s, mode, load };
-    // In the windows of the regression.
+    let source = Source::of(prepared, motor);
+    let Source { campaign, mode, .. } = source;
     let sampled = source.sampled();
     let long = Found::of(&sampled, false);
     let possible = long.as_ref().and_then(Found::possible).unwrap_or_default();
-    let lag = long.and_then(|found| found.lag(&source));
+    let left_out_of_regression = long.as_ref().and_then(|found| found.search.left_out_shares());
+    let lag = long.as_ref().and_then(|found| found.lag(&source));
     // A mode that no tip shows enters by fourth derivatives, and noise fills short windows; a filter blurs reversals, which short
     // windows are near.
     let blurred = lag.as_ref().is_some_and(|(lag, _)| lag.shape != LagShape::Delay);
@@ -223,19 +235,20 @@ pub(crate) fn friction_law(
         short_windows(&source, motor, inertia)
     };
     let short = Source { window_s, ..source };
+    let in_time = short.sampled();
     let (lag, tried) = if let Some(lag) = lag {
         lag
     } else {
         // Beside what varies over less than a long window.
-        let sampled = short.sampled();
-        let found = Found::of(&sampled, false)?;
+        let same = long.filter(|_| window_s == motor.window_s);
+        let found = same.or_else(|| Found::of(&in_time, false))?;
         let Some(lag) = found.lag(&short) else {
             let line = found.search.left_out_by_line()?;
-            return found.law(&sampled, None, possible, line);
+            let (law, sums) = found.law(&in_time, None, possible, line)?;
+            return Some((FrictionLaw { left_out_of_regression, ..law }, sums));
         };
         lag
     };
-    let in_time = short.sampled();
     let late = lag.late(campaign);
     let late = Source { campaign: &late, ..short };
     let sampled = late.sampled();
@@ -244,31 +257,27 @@ pub(crate) fn friction_law(
     let line = line.left_out(&(0..found.search.line).collect::<Vec<_>>())?.by_block;
     let (mut law, sums) = found.law(&sampled, Some(lag), possible, line)?;
     law.candidates.insert(0, tried);
-    Some((law, sums))
+    Some((FrictionLaw { left_out_of_regression, ..law }, sums))
 }
 
 /// Whether an equation with a mode or tips predicts blocks that were left out better than the one without, each with the terms
 /// that it calls for, in windows of the same length, and leaves no more of them with each in its own windows: a ripple is gone
 /// in windows that are long enough for a mode.
 pub(crate) fn predicts_better(
-    with: (&Prepared<'_>, &MotorRegression),
-    without: (&Prepared<'_>, &MotorRegression),
+    with: (&MotorRegression, Option<&FrictionLaw>),
+    without: (&Prepared<'_>, &MotorRegression, Option<&FrictionLaw>),
 ) -> bool {
-    let window_s = with.1.window_s;
-    let predicted = |(prepared, motor): (&Prepared<'_>, &MotorRegression)| {
-        let (campaign, noise) = (prepared.used(), prepared.noise());
-        let load = motor.gravity.map(|g| g.load());
-        let mode = motor.mode.map(|m| m.shape());
-        let source = Source { campaign, noise, window_s, mode, load };
-        let sampled = source.sampled();
-        Found::of(&sampled, false)?.search.left_out_shares()
-    };
-    let both = predicted(without).zip(predicted(with));
-    let left = |(prepared, motor): (&Prepared<'_>, &MotorRegression)| {
-        Some(friction_law(prepared, motor)?.0.unused.shares().model)
-    };
-    both.is_some_and(|(without, with)| Improvement::between(&without, &with).is_sure)
-        && left(without).zip(left(with)).is_none_or(|(without, with)| with < without)
+    let (flexible, law) = with;
+    let (prepared, rigid, rigid_law) = without;
+    let left = |law: &FrictionLaw| law.unused.shares().model;
+    if law.zip(rigid_law).is_some_and(|(with, without)| left(with) >= left(without)) {
+        return false;
+    }
+    let source = Source { window_s: flexible.window_s, ..Source::of(prepared, rigid) };
+    let sampled = source.sampled();
+    let without = Found::of(&sampled, false).and_then(|found| found.search.left_out_shares());
+    let both = without.as_ref().zip(law.and_then(|law| law.left_out_of_regression.as_ref()));
+    both.is_some_and(|(without, with)| Improvement::between(without, with).is_sure)
 }
 
 /// Whether a lag is a filter or a delay, its time \[s\], and the residual with it over that without.
@@ -380,6 +389,7 @@ impl<'a> Found<'a> {
                 power: search.divided.total().power(),
                 cut: *cut,
             },
+            left_out_of_regression: None,
             motion,
         };
         Some((law, sums))

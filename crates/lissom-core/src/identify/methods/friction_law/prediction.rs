@@ -3,7 +3,7 @@
 use nalgebra::DVector;
 use statrs::distribution::{ContinuousCDF as _, StudentsT};
 
-use crate::identify::methods::friction_law::blocks::{BlockRows, Gram, Unit};
+use crate::identify::methods::friction_law::blocks::{BlockRows, Gram};
 use crate::identify::methods::friction_law::thresholds::{
     BETTER_CHANCE, BLOCKS_LEAST, SAVED_LEAST,
 };
@@ -64,23 +64,28 @@ pub(super) struct LeftOut {
 
 impl Divided {
     pub(super) fn of(rows: &BlockRows) -> Self {
-        let fold = |block: usize| Self::fold(block, rows.blocks);
-        let half = |block: usize| Self::half(block, rows.blocks);
-        let runs = rows.units.iter().map(|unit| unit.run + 1).max().unwrap_or(1);
-        let groups = runs.min(MOST_RUNS);
-        let by_speed = |unit: &Unit| Some(unit.kind / 4 * 2 + unit.kind % 2);
-        let by_travel = |unit: &Unit| Some(unit.kind % 4);
-        let mut kinds = rows.groups(BY_SPEED, by_speed);
-        kinds.extend(rows.groups(BY_TRAVEL, by_travel));
+        let (blocks, width) = (rows.blocks.len(), rows.width() + 1);
+        let of_kinds = |groups: usize, group: fn(usize) -> usize| {
+            let each = rows.kinds.iter().enumerate();
+            Gram::by_group(groups, width, each.map(|(kind, sums)| (group(kind), sums)))
+        };
+        let of_blocks = |groups: usize, group: &dyn Fn(usize) -> usize| {
+            let each = rows.blocks.iter().enumerate();
+            Gram::by_group(groups, width, each.map(|(block, sums)| (group(block), sums)))
+        };
+        let mut kinds = of_kinds(BY_SPEED, |kind| kind / 4 * 2 + kind % 2);
+        kinds.extend(of_kinds(BY_TRAVEL, |kind| kind % 4));
+        let runs = rows.runs();
         if runs > 1 {
-            kinds.extend(rows.groups(groups, |unit| Some(unit.run * groups / runs)));
+            let groups = runs.min(MOST_RUNS);
+            kinds.extend(of_blocks(groups, &|block| rows.run_of_block[block] * groups / runs));
         }
-        let halves = rows.groups(2, |unit| Some(half(unit.block)));
+        let halves = of_blocks(2, &|block| Self::half(block, blocks));
         let [even, odd] = [0, 1].map(|i| halves[i].clone());
         Self {
             total: rows.total(),
-            blocks: rows.groups(rows.blocks, |unit| Some(unit.block)),
-            folds: rows.groups(FOLDS, |unit| Some(fold(unit.block))),
+            blocks: rows.blocks.clone(),
+            folds: of_blocks(FOLDS, &|block| Self::fold(block, blocks)),
             kinds,
             halves: [even, odd],
         }

@@ -42,6 +42,9 @@ pub(crate) struct Cut {
 }
 
 impl Cut {
+    /// Number of kinds of motion.
+    pub(super) const KINDS: usize = 12;
+
     pub(super) fn kind(&self, place: &WindowPlace) -> usize {
         let third = self.thirds.iter().filter(|t| place.speed > **t).count();
         (third * 2 + usize::from(place.angle > self.middle)) * 2 + usize::from(place.sign > 0.0)

@@ -1,5 +1,7 @@
 //! Terms with a value that is searched for: the period of a ripple, and the speed of a change near rest.
 
+use rayon::prelude::*;
+
 use crate::identify::methods::friction_law::blocks::Regressor;
 use crate::identify::methods::friction_law::candidates::{Candidate, ModelTerm, law_regressors};
 use crate::identify::methods::friction_law::choice::{Offer, Search};
@@ -21,31 +23,18 @@ impl Search<'_> {
     pub(super) fn offer_ripples(&mut self, further: &[&Candidate]) -> Vec<Vec<Offer>> {
         let columns = self.with(further);
         let block = self.rows.block_of_windows();
-        let blocks = self.rows.blocks;
-        let all: Vec<f64> = match self.divided.total().values(&columns) {
-            Some(value) => self.rows.left(&columns, &value),
-            None => return Vec::new(),
-        };
+        let blocks = self.rows.blocks.len();
         let mut found = Vec::new();
         for friction in [true, false] {
             let at = |half: Option<usize>| {
+                let sums = half.map_or(self.divided.total(), |half| self.divided.of_half(half));
+                let left = self.rows.left(&columns, &sums.values(&columns)?);
                 let wanted = |i: usize| half.is_none_or(|h| Divided::half(block[i], blocks) == h);
-                match half {
-                    None => ripple::strongest(self.sampled, &all, friction, wanted),
-                    Some(half) => {
-                        let value = self.divided.of_half(half).values(&columns)?;
-                        let left = self.rows.left(&columns, &value);
-                        ripple::strongest(self.sampled, &left, friction, wanted)
-                    }
-                }
+                ripple::strongest(self.sampled, &left, friction, wanted)
             };
-            let Some([first, second, whole]) = at(Some(0))
-                .zip(at(Some(1)))
-                .zip(at(None))
-                .map(|((first, second), whole)| [first, second, whole])
-            else {
-                continue;
-            };
+            let parts = [Some(0), Some(1), None].into_par_iter().map(at);
+            let Some(parts) = parts.collect::<Option<Vec<f64>>>() else { continue };
+            let [first, second, whole] = [0, 1, 2].map(|i| parts[i]);
             let same = SAME_RIPPLE * ripple::step(self.sampled);
             if (first - second).abs() < same && (first - whole).abs() < same {
                 found.push((friction, [first, second, whole]));
@@ -89,7 +78,7 @@ impl Search<'_> {
         let mut taken = None;
         for _ in 0..SCANNED_ROUNDS {
             let term = term.with_scanned(now);
-            self.rows.truncate(self.sampled, first);
+            self.rows.truncate(first);
             let regressors = law_regressors(term);
             self.rows.add(self.sampled, &regressors, &[]);
             let mut columns: Vec<usize> = (first..self.rows.width()).collect();
@@ -114,7 +103,7 @@ impl Search<'_> {
         // speed alone does not: its amplitude is part of no model, and the speed's standard error is that of its steps.
         if let (LawTerm::NearRest { .. }, Some(own)) = (term, &mut taken) {
             own.columns.pop();
-            self.rows.truncate(self.sampled, own.columns.last().map_or(first, |last| last + 1));
+            self.rows.truncate(own.columns.last().map_or(first, |last| last + 1));
         }
         self.taken.extend(taken);
     }
