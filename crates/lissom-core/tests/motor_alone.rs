@@ -104,7 +104,6 @@ fn a_mode_that_is_none_goes() {
         grounded_per_s: 0.0,
     }];
     let start = OutputErrorStart {
-        friction_varies: false,
         further_terms: Vec::new(),
         most_evaluations: Effort::Thorough.most_evaluations(),
         interrupt: Interrupt::default(),

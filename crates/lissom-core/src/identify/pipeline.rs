@@ -195,7 +195,7 @@ pub fn identify(
         let known = (&drive, &motor, lag_s);
         let arms = starting_arms(replayed.used(), known, beam, tips, &shown, corrected);
         let arms = with_law(law, arms, replayed.used());
-        let found = output_error(replayed, &start_of(replayed, options, arms, (&motor, law)))?;
+        let found = output_error(replayed, &start_of(replayed, options, arms, law))?;
         let (campaign, noise) = (replayed.used(), replayed.noise());
         let unused =
             law.and_then(|law| law.unused.with_arm(campaign, noise, law.window_s, &found.arm));
@@ -326,7 +326,7 @@ fn start_of(
     prepared: &Prepared<'_>,
     options: &Options,
     arms: Vec<ModalArm>,
-    (motor, law): (&MotorRegression, Option<&FrictionLaw>),
+    law: Option<&FrictionLaw>,
 ) -> OutputErrorStart {
     let omega = |&i: &usize| match &prepared.runs()[i].kind {
         RunKind::Sinusoidal(s) => Some(s.omega_rad_s),
@@ -338,7 +338,6 @@ fn start_of(
         first_window_s: None,
         most_evaluations: options.evaluations(),
         interrupt: options.interrupt.clone(),
-        friction_varies: motor.varies_by().is_some(),
         further_terms: law.map(FrictionLaw::further_terms).unwrap_or_default(),
     }
 }

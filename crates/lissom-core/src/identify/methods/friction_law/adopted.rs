@@ -85,17 +85,28 @@ impl Search<'_> {
         terms.extend(late.map(|late| (LawTerm::CommandLag, vec![late])));
         let back_emf = self.sampled.campaign.channels.command.back_emf_viscous;
         let [level, slope] = weights;
+        let of_terms = |motion: &Motion| {
+            let mut at = self.line;
+            laws.iter().fold([0.0; 2], |[level, slope], (term, candidate)| {
+                let [a, b] = motion.of_term(*term).map(|by| by * solution.value[at]);
+                at += candidate.columns.len();
+                [level + a, slope + b]
+            })
+        };
+        let scatter = motion.scatter(of_terms);
+        let counted = |e: Estimate, i: usize| Estimate { std: e.std.hypot(scatter[i]), ..e };
         let by_direction = |sign: f64| {
             let with_offset: Vec<_> = level.iter().copied().chain([(PLACE_OFFSET, sign)]).collect();
-            fitted.combined(&with_offset)
+            Some(counted(fitted.combined(&with_offset)?, 0))
         };
-        let viscous = fitted.combined(&slope).map(|e| Estimate { value: e.value - back_emf, ..e });
+        let viscous = fitted.combined(&slope).map(|e| counted(e, 1));
+        let viscous = viscous.map(|e| Estimate { value: e.value - back_emf, ..e });
         let fit = LawFit {
             terms,
             inertia: found.inertia,
             viscous: found.friction.viscous,
             coulomb: found.friction.coulomb,
-            projected: [fitted.combined(&level), viscous],
+            projected: [by_direction(0.0), viscous],
             projected_by_direction: [1.0, -1.0].map(by_direction),
             at_rest,
             offset: found.friction.offset,

@@ -375,7 +375,9 @@ impl<'a> Found<'a> {
         let law = FrictionLaw {
             window_s: sampled.window_s,
             speed_range: [*speeds.first()?, *speeds.last()?],
-            line_speed_range: [in_motion.first()?[0], in_motion.last()?[0]],
+            line_speed_range: in_motion
+                .iter()
+                .fold([f64::INFINITY, 0.0], |[low, high], [v, _]| [low.min(*v), high.max(*v)]),
             curve,
             relative_residual: [*line_residual, residual, by_curve],
             candidates: search.candidates.clone(),

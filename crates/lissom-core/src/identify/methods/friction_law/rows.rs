@@ -144,7 +144,7 @@ impl<'a> Sampled<'a> {
         most * self.campaign.channels.command.torque_per_unit().abs()
     }
 
-    /// Speed and angle of the motor in motion, by ascending speed: of samples that are evenly spread over the campaign, without
+    /// Speed and angle of the motor in motion, in the order of time: of samples that are evenly spread over the campaign, without
     /// those slower than [`SLOWEST_SAMPLE`].
     pub(super) fn motion(&self) -> Vec<[f64; 2]> {
         let runs = || self.campaign.runs.iter().zip(&*self.runs);
@@ -157,10 +157,9 @@ impl<'a> Sampled<'a> {
             places.map(|(v, angle)| [v.abs(), *angle]).collect::<Vec<_>>()
         };
         let mut motion: Vec<[f64; 2]> = runs().flat_map(of_run).collect();
-        motion.par_sort_unstable_by(|a, b| a[0].total_cmp(&b[0]));
-        let fastest = motion.last().map_or(0.0, |[speed, _]| *speed);
-        let slow = motion.partition_point(|[speed, _]| *speed <= SLOWEST_SAMPLE * fastest);
-        motion.split_off(slow)
+        let fastest = motion.iter().fold(0.0, |most: f64, [speed, _]| most.max(*speed));
+        motion.retain(|[speed, _]| *speed > SLOWEST_SAMPLE * fastest);
+        motion
     }
 
     /// Lowest and highest angle of the windows.

@@ -35,7 +35,7 @@ impl OutputError {
             viscous_by_direction: split.then(|| (viscous(0), viscous(1))),
             ..self.terms()
         };
-        let line = |arm: &ModalArm| -> [f64; 2] {
+        let line = |arm: &ModalArm, motion: &Motion| -> [f64; 2] {
             let DryTerms { near_rest, root, with_load, .. } = &arm.dry_terms;
             let by_speed = |speed: f64| {
                 let near = near_rest.map_or(0.0, |near| {
@@ -44,22 +44,33 @@ impl OutputError {
                 near + root.map_or(0.0, |r| r.torque_nm_per_root_rad_s * Root::growth(speed))
             };
             let by_load = |angle: f64| with_load.map_or(0.0, |w| w.coefficient * w.load_nm(angle));
-            let [level, slope] = motion.map_or([0.0; 2], |motion| {
-                let [level, slope] = motion.line_of(by_speed);
-                [level + motion.mean_over_angles(by_load), slope]
-            });
+            let [level, slope] = motion.line_of(by_speed, by_load);
             [arm.coulomb_nm + level, mean(arm) + slope]
         };
-        let level = |sign: f64| self.estimate_of(|arm| line(arm)[0] + sign * arm.offset_nm);
         let bends = law.near_rest.is_some() || law.root.is_some() || law.with_load.is_some();
-        let moved = motion.is_some() && bends;
+        let offset = self.estimate(Parameter::Offset);
+        let Some(motion) = motion.filter(|_| bends) else {
+            return Friction {
+                coulomb: law.coulomb,
+                forward: law.forward,
+                backward: law.backward,
+                offset,
+                viscous: law.viscous,
+                law: law.has_terms().then_some(law),
+            };
+        };
+        let scatter = motion.scatter(|motion| line(&self.arm, motion));
+        let counted = |e: Estimate, i: usize| Some(Estimate { std: e.std.hypot(scatter[i]), ..e });
+        let level = |sign: f64| {
+            counted(self.estimate_of(|arm| line(arm, motion)[0] + sign * arm.offset_nm), 0)
+        };
         Friction {
-            coulomb: if moved { Some(level(0.0)) } else { law.coulomb },
-            forward: if moved { Some(level(1.0)) } else { law.forward },
-            backward: if moved { Some(level(-1.0)) } else { law.backward },
-            offset: self.estimate(Parameter::Offset),
-            viscous: if moved { Some(self.estimate_of(|arm| line(arm)[1])) } else { law.viscous },
-            law: law.has_terms().then_some(law),
+            coulomb: level(0.0),
+            forward: level(1.0),
+            backward: level(-1.0),
+            offset,
+            viscous: counted(self.estimate_of(|arm| line(arm, motion)[1]), 1),
+            law: Some(law),
         }
     }
 

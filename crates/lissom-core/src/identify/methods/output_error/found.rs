@@ -154,9 +154,6 @@ pub struct OutputErrorStart {
     pub most_evaluations: u64,
     /// Ends the search early, with the best result so far.
     pub interrupt: Interrupt,
-    /// Whether the regression in slip phases has found friction that varies from one slip phase
-    /// to the next, and nothing else.
-    pub friction_varies: bool,
     /// Terms of friction that slip phases hardly show. They are tried if the residual is above the noise.
     pub further_terms: Vec<LawTerm>,
 }

@@ -41,7 +41,6 @@ pub fn output_error(prepared: &Prepared<'_>, start: &OutputErrorStart) -> Option
         noise: &noise,
         budget: &budget,
         widening: WINDOW_WIDENING,
-        tries_first_mode: !start.friction_varies,
     };
     let Attempt { fit, mut report, without_repeats, left } = best(&fitting, start)?;
     let fitting = Fitting { masks: without_repeats.as_deref().unwrap_or(&masks), ..fitting };

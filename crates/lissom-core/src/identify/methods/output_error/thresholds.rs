@@ -150,28 +150,9 @@ thresholds! {
         /// Initial damping ratio of a mode above all others. Its frequency is uncertain at first,
         /// so it must decay quickly.
         NEW_MODE_DAMPING: f64 = 0.1, "1", Convention;
-        /// Initial shares of a rigid axis' inertia that its first mode takes; they are tried in
-        /// turn.
-        FIRST_MODE_SHARES: [f64; 2] = [0.3, 0.7], "1", Convention;
-        /// Smallest inertia behind the spring of the first mode of a rigid axis, as a share of that
-        /// on the motor's side: a smaller one can describe a part of any error of the arm.
-        FIRST_MODE_INERTIA_LEAST: f64 = 0.02, "1", Convention;
-        /// Largest number of searches for the first mode of a rigid axis, each of
-        /// `STAGE_STEPS_MOST` steps.
-        FIRST_MODE_SEARCHES: usize = 4, "searches", Convention;
-        /// Ratio between the initial frequencies of the first mode of a rigid axis.
-        FIRST_MODE_STEP: f64 = 1.6, "1", Convention;
-        /// Number of times that a first mode of a rigid axis is tried, over windows of different
-        /// lengths.
-        FIRST_MODE_TRIES: usize = 2, "1", Convention;
         /// A mode that no tip shows must make this many oscillations in a run: a slower one stands
         /// for a load or for friction that changes.
         FIRST_MODE_OSCILLATIONS: f64 = 3.0, "1", Convention;
-        /// Largest initial phase of the first mode of a rigid axis in one sample.
-        FIRST_MODE_TURN_MOST: f64 = 1.5, "rad", Convention;
-        /// The first mode of a rigid axis must reduce the squared residual beyond the noise to this
-        /// share or less: friction that wanders is not described so well.
-        FIRST_MODE_EXCESS_LEFT: f64 = 0.3, "1", Convention;
         /// Initial angle by which point masses at the tips rotate the new mode and the highest mode
         /// into each other; both signs are tried.
         NEW_MODE_TURN: f64 = 0.4, "rad", Convention;

@@ -86,8 +86,6 @@ pub(crate) struct Report {
     pub(crate) added: Vec<Extension>,
     /// Parameters that were not added when they were last tried.
     pub(crate) refused: Vec<Extension>,
-    /// How often a first mode was tried and not added.
-    pub(crate) first_modes_refused: usize,
 }
 
 impl Report {

@@ -40,8 +40,6 @@ pub(crate) struct Fitting<'a> {
     pub(crate) budget: &'a Budget,
     /// Factor by which each stage's windows are longer than the ones before.
     pub(crate) widening: f64,
-    /// Whether a first mode of a rigid axis is tried: friction that varies would be taken for one.
-    pub(crate) tries_first_mode: bool,
 }
 
 impl Fitting<'_> {

@@ -5,23 +5,14 @@ use crate::identify::methods::output_error::engine::covariance::standard_error;
 use crate::identify::methods::output_error::model::fit::{ArmFit, Report};
 use crate::identify::methods::output_error::model::fitting::Fitting;
 use crate::identify::methods::output_error::thresholds::{
-    CRITICAL_DAMPING, FIRST_MODE_EXCESS_LEFT, FIRST_MODE_INERTIA_LEAST, FIRST_MODE_OSCILLATIONS,
-    FIRST_MODE_SEARCHES, FIRST_MODE_SHARES, FIRST_MODE_STEP, FIRST_MODE_TRIES,
-    FIRST_MODE_TURN_MOST, MODE_FAINT, MODE_RETUNED, MODE_RETUNED_CLOSELY, NEW_MODE_DAMPING,
-    NEW_MODE_FREQUENCIES, NEW_MODE_SHARE, NEW_MODE_TURN, PROBE_STEPS, REPETITIONS_MOST,
-    RESIDUAL_ABOVE_NOISE,
+    CRITICAL_DAMPING, FIRST_MODE_OSCILLATIONS, MODE_FAINT, MODE_RETUNED, MODE_RETUNED_CLOSELY,
+    NEW_MODE_DAMPING, NEW_MODE_FREQUENCIES, NEW_MODE_SHARE, NEW_MODE_TURN, PROBE_STEPS,
+    REPETITIONS_MOST,
 };
-use crate::identify::thresholds::{MODE_DAMPING_LEAST, RESIDUAL_FALLS_TO};
-use crate::record::Run;
-use crate::replay::{DryTerms, MOST_MODES, ModalArm, Oscillator, Parameter, free_parameters};
+use crate::replay::{MOST_MODES, ModalArm, Oscillator, Parameter, free_parameters};
 
-/// Adds modes above the others, up to as many as tips, while each makes the fit better. To a rigid axis without tips a
-/// first mode is added if it explains what the sensors' noise does not.
+/// Adds modes above the others, up to as many as tips, while each makes the fit better.
 pub(crate) fn grow(fitting: &Fitting<'_>, fit: &mut ArmFit, report: &mut Report) {
-    if fit.body.arm.modes.is_empty() && fitting.campaign.channels.tips.is_empty() {
-        add_the_first(fitting, fit, report);
-        return;
-    }
     let tips = fitting.campaign.channels.tips.len().min(MOST_MODES);
     while !fit.body.arm.modes.is_empty() && fit.body.arm.modes.len() < tips {
         let beyond = with_one_more(fitting, fit, report);
@@ -30,77 +21,6 @@ pub(crate) fn grow(fitting: &Fitting<'_>, fit: &mut ArmFit, report: &mut Report)
         }
         *fit = beyond;
     }
-}
-
-/// Adds a mode to a rigid axis: a part of its inertia then turns behind a spring. Short searches begin at
-/// frequencies from one period in a window to the fastest that samples show, and with two shares of the inertia. The best of them continues.
-fn add_the_first(fitting: &Fitting<'_>, fit: &mut ArmFit, report: &mut Report) {
-    let tried = report.first_modes_refused >= FIRST_MODE_TRIES;
-    if tried || !fitting.tries_first_mode || fitting.beyond_noise(fit) <= RESIDUAL_ABOVE_NOISE {
-        return;
-    }
-    let sample_s = fitting.campaign.runs.iter().map(Run::sample_time_s).fold(0.0, f64::max);
-    let fastest = FIRST_MODE_TURN_MOST / sample_s;
-    let slowest = std::f64::consts::TAU / fit.window_s;
-    let next = |w: &f64| Some(FIRST_MODE_STEP * w);
-    let frequencies = std::iter::successors(Some(slowest), next).take_while(|w| *w < fastest);
-    let starts =
-        frequencies.flat_map(|w| FIRST_MODE_SHARES.map(|share| with_first(fitting, fit, w, share)));
-    let probed = starts.filter_map(|start| {
-        let (cost, body) = fitting.probe(&start, PROBE_STEPS)?;
-        Some((cost, ArmFit { body, ..start }))
-    });
-    let Some((_, start)) = probed.min_by(|a, b| a.0.total_cmp(&b.0)) else { return };
-    let mut with = start;
-    // Each search ends after a few steps, which such a start needs more of.
-    for _ in 0..FIRST_MODE_SEARCHES {
-        let before = with.residual.clone();
-        fitting.search(&mut with, report);
-        let ended = |(now, before): (&f64, &f64)| *now > RESIDUAL_FALLS_TO * before;
-        if !before.is_empty() && with.residual.iter().zip(&before).all(ended) {
-            break;
-        }
-    }
-    let possible = is_a_mode(&with.body.arm, slowest);
-    let explains = fitting.excess(&with) < FIRST_MODE_EXCESS_LEFT * fitting.excess(fit);
-    if possible && explains && fitting.is_better(&with, fit) {
-        *fit = with;
-    } else {
-        report.first_modes_refused += 1;
-    }
-}
-
-/// Whether a good part of the inertia turns behind the spring, no slower than `slowest_rad_s`, and oscillates without gaining
-/// energy.
-fn is_a_mode(arm: &ModalArm, slowest_rad_s: f64) -> bool {
-    let ratios = arm.damping_ratios();
-    arm.modes.iter().zip(ratios).all(|(mode, ratio)| {
-        mode.inertia_kg_m2() > FIRST_MODE_INERTIA_LEAST * arm.inertia_kg_m2
-            && mode.omega_rad_s > 0.5 * slowest_rad_s
-            && (MODE_DAMPING_LEAST..CRITICAL_DAMPING).contains(&ratio)
-    })
-}
-
-/// A rigid axis with a part of its inertia behind a spring. Without the mode, a lag and further friction may have been
-/// taken for it: they are tried again later.
-fn with_first(fitting: &Fitting<'_>, fit: &ArmFit, omega_rad_s: f64, share: f64) -> ArmFit {
-    let mut fit = fit.clone();
-    fit.residual.clear();
-    let arm = &mut fit.body.arm;
-    arm.command_lag_s = 0.0;
-    arm.dry_terms = DryTerms::default();
-    arm.viscous_nm_s_per_rad = [Parameter::Viscous.of(arm); 2];
-    let behind = share * arm.inertia_kg_m2;
-    arm.inertia_kg_m2 -= behind;
-    arm.modes.push(Oscillator {
-        omega_rad_s,
-        stiffness_nm_per_rad: behind * omega_rad_s * omega_rad_s,
-        within_per_s: 2.0 * NEW_MODE_DAMPING * omega_rad_s,
-        grounded_per_s: 0.0,
-    });
-    begin_undeflected(&mut fit);
-    fit.free = free_parameters(&fitting.campaign.channels, &fit.body.arm);
-    fit
 }
 
 /// Adds a mode to the initial state of every window: it moves with the motor.
