@@ -109,7 +109,7 @@ fn with_directions(mut id: Identified) -> Identified {
         law.candidates = all.map(|term| LawCandidate { term, ..tried }).collect();
     }
     let falloff = Falloff::Exponential;
-    let ripple = RippleEstimate { torque: estimate, per_angle: estimate };
+    let ripple = RippleEstimate { torque: estimate, per_angle: estimate, phase_rad: 0.5 };
     id.friction.law = Some(LawEstimates {
         coulomb: Some(estimate),
         forward: Some(estimate),

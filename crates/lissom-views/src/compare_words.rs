@@ -266,7 +266,7 @@ fn modes(found: &ComparedFile) -> Option<String> {
 pub(crate) fn method(result: &ComparedResultEntry) -> &'static str {
     match result.from {
         Some(MethodName::OutputError) => "output-error method",
-        Some(MethodName::FrictionLaw) => "regression with a friction law",
+        Some(MethodName::FrictionLaw) => "regression with further terms",
         Some(MethodName::Regression) => "regression",
         Some(MethodName::LeastSquares) => "least squares",
         Some(MethodName::FrequencyResponse) => "frequency response",

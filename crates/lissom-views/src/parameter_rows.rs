@@ -5,7 +5,8 @@ use lissom_io::result::finding_keys::{
     CONSTANT_VELOCITY, COULOMB, COUPLING, GRAVITY, INERTIA, MODES, OFFSET, VISCOUS,
 };
 use lissom_io::result::{
-    ConstantVelocityEntry, DirectionName, EstimateEntry, FrictionLineEntry, LawEntry,
+    ChosenTermEntry, ConstantVelocityEntry, DirectionName, EstimateEntry, FrictionLineEntry,
+    LawEntry, LawTermName, MethodName,
 };
 use lissom_io::{ResultFile, UnitNames};
 
@@ -118,6 +119,15 @@ pub fn parameter_rows(
     let inertia = reference.map(|r| r.inertia_kg_m2);
     let estimate = given(result.drive.inertia.as_ref());
     add(INERTIA, names.inertia_name(), estimate, names.inertia_unit(), inertia);
+    if let Some(lag) = lag_s(result) {
+        add(
+            "arm.command_lag_s",
+            "lag of the command",
+            Some(lag.scaled(1e3)),
+            "ms".to_owned(),
+            None,
+        );
+    }
     if let Some(gravity) = &result.gravity {
         let known = reference.and_then(|r| r.gravity);
         let mgl = known.map(|load| load.amplitude_nm());
@@ -132,6 +142,21 @@ pub fn parameter_rows(
     }
     rows.extend(beam_rows(names, result, reference));
     rows
+}
+
+/// Lag of the command behind the angle \[s\], of the method that the estimates are from.
+fn lag_s(result: &ResultFile) -> Option<Estimate> {
+    match result.from? {
+        MethodName::OutputError => {
+            given(result.methods.output_error.as_ref()?.command_lag_s.as_ref())
+        }
+        MethodName::FrictionLaw => {
+            let law = result.methods.friction_law.as_ref()?;
+            let is_lag = |t: &&ChosenTermEntry| t.term.term == LawTermName::CommandLag;
+            law.chosen.terms.iter().find(is_lag)?.amplitude.first().map(EstimateEntry::estimate)
+        }
+        _ => None,
+    }
 }
 
 /// The law of friction with its own values.

@@ -41,7 +41,7 @@ pub(crate) fn parameters(names: UnitNames, result: &ResultFile, reference: Optio
 
 /// Prints the speeds for which the friction law and the friction curve hold, if the result has such a law.
 pub(crate) fn speeds_of_law(names: UnitNames, id: &Identified) {
-    let Some(law) = id.friction_law.as_ref().filter(|law| law.chosen.departs()) else { return };
+    let Some(law) = id.friction_law.as_ref().filter(|_| id.friction.law.is_some()) else { return };
     let unit = format!("{}/s", names.angle());
     let range = |[slowest, fastest]: [f64; 2]| {
         format!("{} to {} {unit}", significant(slowest, 3), significant(fastest, 3))
@@ -52,8 +52,9 @@ pub(crate) fn speeds_of_law(names: UnitNames, id: &Identified) {
         range(law.speed_range)
     ));
     line(&format!(
-        "Coulomb and viscous friction are the straight line nearest to the law at speeds of {}",
-        range(law.line_speed_range)
+        "Coulomb and viscous friction are the straight line nearest to the law at speeds of {}{}",
+        range(law.line_speed_range),
+        if id.gravity.is_some() { ", under the mean load" } else { "" }
     ));
     let speeds = || law.curve.iter().map(|p| p.speed);
     if let Some(slowest) = speeds().min_by(f64::total_cmp) {

@@ -47,9 +47,7 @@ impl Method {
             Self::OutputError => {
                 "the output-error method: the motion simulated from the logged command is fitted to the log"
             }
-            Self::FrictionLaw => {
-                "regression in slip phases, with the friction law that the data support"
-            }
+            Self::FrictionLaw => "regression in slip phases, with the terms that predict best",
             Self::Regression => "regression in slip phases",
             Self::LeastSquares => "ordinary least squares",
             Self::FrequencyResponse => "a fit to the corrected frequency response",

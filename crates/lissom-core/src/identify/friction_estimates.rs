@@ -93,6 +93,7 @@ impl LawEstimates {
         let ripple = |i: usize| RippleEstimate {
             torque: any(&|terms| terms.ripples[i].amplitude_nm()),
             per_angle: any(&|terms| terms.ripples[i].per_rad),
+            phase_rad: phase_rad(terms.ripples[i].cosine_nm, terms.ripples[i].sine_nm),
         };
         let ripples = (0..terms.ripples.len()).map(ripple).collect();
         let root = number(FrictionNumber::Root);
@@ -183,6 +184,13 @@ pub struct RippleEstimate {
     pub torque: Estimate,
     /// k: phase of the ripple per angle \[rad/rad\], or per length on a linear axis \[1/m\].
     pub per_angle: Estimate,
+    /// Phase φ \[rad\].
+    pub phase_rad: f64,
+}
+
+/// φ of `A·cos(x + φ)`, which is `cosine·cos x + sine·sin x`.
+fn phase_rad(cosine: f64, sine: f64) -> f64 {
+    (-sine).atan2(cosine)
 }
 
 impl RippleEstimate {
@@ -192,7 +200,8 @@ impl RippleEstimate {
         let unknown = Estimate { value: per_angle, std: f64::INFINITY };
         let torque =
             Estimate { value: cosine.value.hypot(sine.value), std: cosine.std.hypot(sine.std) };
-        Some(Self { torque, per_angle: rate.first().copied().unwrap_or(unknown) })
+        let per_angle = rate.first().copied().unwrap_or(unknown);
+        Some(Self { torque, per_angle, phase_rad: phase_rad(cosine.value, sine.value) })
     }
 
     /// Period 2π/k \[rad or m\]; its relative standard error is that of k.

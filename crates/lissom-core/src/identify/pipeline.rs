@@ -205,11 +205,11 @@ pub fn identify(
     let doubted = !missing.is_empty() && !lawful;
     let line_holds = !lawful && missing.is_empty();
     let varies = line_holds && regression.as_ref().is_some_and(|r| r.varies_by().is_some());
-    let output_error =
-        output_error.map(|(oe, unused)| oe.beside_regression(doubted, varies).beside_line(unused));
+    let by_law = law.as_ref().map(|(law, _)| law);
+    let output_error = output_error
+        .map(|(oe, unused)| oe.beside_regression(doubted, varies).beside_law(unused, by_law));
     let stands = output_error.as_ref().is_some_and(OutputError::stands);
     let rigid = regression.as_ref().filter(|_| !stands);
-    let by_law = law.as_ref().map(|(law, _)| law);
     let rigid = rigid.and_then(|r| rigid_equation(&prepared, options, r, by_law));
     let (without_coupling, regression, law, line) = match rigid {
         None => {

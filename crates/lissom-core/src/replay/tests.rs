@@ -466,3 +466,46 @@ fn replays_further_terms_of_friction_as_the_event_engine_does() {
         assert!(with < 2e-5 * without, "{with} {without}");
     }
 }
+
+/// Friction under a load that also acts on the motor, against the event engine.
+#[test]
+fn replays_friction_under_the_load_that_it_grows_with() {
+    let load = GravityLoad { sine_nm: 2.0, cosine_nm: 0.6 };
+    let sliding = Coulomb::symmetric(0.25).unwrap();
+    let motor = Motor::new(0.012, 0.05, 1.0).unwrap();
+    let arm = Arm::new(crate::beam::Beam::Rigid, motor, sliding).unwrap();
+    let by_load = DryFriction::from(sliding).with_load(0.12, load).unwrap();
+    let plain = ModalArm { gravity: Some(load), ..ModalArm::of_arm(&arm).unwrap() };
+    let model = ModalArm { dry_terms: by_load.terms().clone(), ..plain.clone() };
+    let mut motion = Hybrid::at_rest(&arm).with_friction(by_load).with_gravity(load);
+    let (mut command, mut states) = (vec![], vec![]);
+    for k in 0..6000 {
+        let s = 1e-3 * f64::from(k);
+        let torque = 2.2 * (3.0 * s).sin() + 1.2 * (7.0 * s).sin();
+        states.push(motion.state().to_vec());
+        command.push(torque);
+        motion.advance(torque, 1e-3);
+    }
+    let angle: Vec<f64> = states.iter().map(|x| x[0]).collect();
+    let run = Run::new("log", TimeBase::uniform(0.0, 1e-3), command, angle, vec![]).unwrap();
+    let command = Command {
+        quantity: CommandQuantity::Current,
+        hold: Hold::Sampled,
+        torque_per_command: None,
+        back_emf_viscous: 0.0,
+        limit: None,
+    };
+    let channels = Channels { axis: Axis::Rotary, command, tips: vec![] };
+    let campaign = Campaign::new(channels, vec![run]).unwrap();
+    let from = states.iter().position(|x| x[1] != 0.0).unwrap();
+    let start = states[from][..2].to_vec();
+    let window = Window { run: 0, samples: from..=5999, start, zeros: vec![0.0] };
+    let apart = |model: &ModalArm| {
+        let found = predict(model, &campaign, &window).unwrap();
+        let logged = &campaign.runs[0].motor()[from..];
+        let apart = found.channels[0].iter().zip(logged).map(|(a, b)| (a - b).abs());
+        apart.fold(0.0, f64::max)
+    };
+    let (with, without) = (apart(&model), apart(&plain));
+    assert!(with < 1e-4 * without, "{with} {without}");
+}

@@ -36,7 +36,7 @@ impl FrictionPair {
     /// `h(v) = A_s·g(v/v_s) + A·(√(v + e) − √e)` and g = e^{−x} or e^{−x²}.
     ///
     /// It is the line of the result, Coulomb and viscous friction \[N·m, N·m·s/rad\], weighted with the time at each speed of the
-    /// logs. Without one it is the line of least squares over speeds from 0 to R, the largest speed of the identification (if it
+    /// logs, under their mean load. Without one it is the line of least squares over speeds from 0 to R, the largest speed of the identification (if it
     /// is unknown 5·v_s, or 10 rad/s without a change near rest); if its slope or its constant is negative, that becomes zero and
     /// the other one is fitted alone. Without h the pair is F and V.
     pub(super) fn of(
@@ -48,13 +48,18 @@ impl FrictionPair {
         let (f, v) = (arm.coulomb_nm, 0.5 * (forward + backward));
         let terms = &arm.dry_terms;
         if terms.near_rest.is_none() && terms.root.is_none() {
-            return Self { coulomb_nm: f, viscous_nm_s_per_rad: v, fit: None };
+            let [a, b] = line.filter(|_| terms.with_load.is_some()).unwrap_or([f, v]);
+            return Self { coulomb_nm: a, viscous_nm_s_per_rad: b, fit: None };
         }
         let known = speed_most_rad_s.filter(|s| *s > 0.0);
         let own = terms.near_rest.map(|near| SPEEDS_OF_NEAR_REST * near.speed_rad_s);
         let most = known.or(own).unwrap_or(SPEED_OF_ROOT_RAD_S);
-        let law = |speed: f64| f + v * speed + changes_nm(terms, speed);
-        let [a, b] = line.unwrap_or_else(|| line_of(law, most));
+        let unloaded = |speed: f64| f + v * speed + changes_nm(terms, speed);
+        let own = line_of(unloaded, most);
+        let [a, b] = line.unwrap_or(own);
+        // The line of the result is under the mean load.
+        let under_load = if terms.with_load.is_some() { a - own[0] } else { 0.0 };
+        let law = |speed: f64| unloaded(speed) + under_load;
         let speeds = (0..=PARTS).map(|i| most * i as f64 / PARTS as f64);
         let worst = speeds.map(|s| ((a + b * s - law(s)).abs(), s));
         let (error_nm, error_at_rad_s) =

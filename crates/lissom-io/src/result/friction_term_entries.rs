@@ -61,6 +61,8 @@ pub struct RippleEntry {
     pub amplitude: Option<EstimateEntry>,
     /// Its period.
     pub period: EstimateEntry,
+    /// Its phase.
+    pub phase: NumberEntry,
 }
 
 /// Terms of an arm's friction in addition to Coulomb and viscous friction.
@@ -219,6 +221,7 @@ impl RippleEntry {
         Self {
             amplitude: Some(EstimateEntry::of(ripple.torque, names.torque_unit())),
             period: EstimateEntry::of(ripple.period(), names.angle()),
+            phase: NumberEntry::of(ripple.phase_rad, "rad"),
         }
     }
 }

@@ -203,7 +203,8 @@ impl Describe for FrictionLawFinding {
                 "look for a flexible part, a load or a wrong channel; compare with the line of least squares"
             }
             LawSource::SlipPhases { .. } if self.grows_with_load_alone() => {
-                "the estimate of Coulomb friction is that without load: add the factor in the message times the torque of gravity"
+                "Coulomb friction is that under the mean load of the log; the law has that without load, to which the factor \
+                 in the message times the torque of gravity is added"
             }
             LawSource::OutputError { .. } | LawSource::SlipPhases { .. } => {
                 "Coulomb and viscous friction are valid at speed, not near standstill: use the friction curve at the speed \

@@ -3,7 +3,7 @@
 use rayon::prelude::*;
 
 use crate::identify::validation::cause::{Cause, Causes};
-use crate::identify::validation::thresholds::STRETCH_LEAST;
+use crate::identify::validation::thresholds::{AS_EXPECTED, STRETCH_LEAST};
 use crate::identify::validation::torque_arm::TorqueArm;
 use crate::identify::validation::torque_rows::{
     Coupling, Predictor, Row, RowsOfRun, RunRows, SumsOfRun,
@@ -38,10 +38,14 @@ pub struct TorquePrediction {
 }
 
 impl TorquePrediction {
-    /// Takes what the same recipe leaves of the arm's own motion.
+    /// Takes what the same recipe leaves of the arm's own motion. Where that is more than the log leaves, the simulated joint creeps
+    /// and sticks where the real one does not, and tells nothing of the log.
     pub(super) fn compare(&mut self, expected: Option<Self>) {
         let Some(expected) = expected else { return };
-        self.expected_error = Some(expected.relative_error);
+        self.expected_error = Some(expected.relative_error.min(self.relative_error));
+        if expected.relative_error > AS_EXPECTED * self.relative_error {
+            return;
+        }
         for cause in &mut self.causes {
             let own = expected.causes.iter().find(|c| c.kind == cause.kind);
             cause.expected_value = own.map_or(0.0, |c| c.value);

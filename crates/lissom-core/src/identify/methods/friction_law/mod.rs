@@ -185,6 +185,7 @@ impl LawFit {
 }
 
 /// What a model of a campaign's torque is made from.
+#[derive(Clone, Copy)]
 struct Source<'a> {
     campaign: &'a Campaign,
     noise: &'a [RunNoise],
@@ -218,8 +219,21 @@ pub(crate) fn friction_law(
     prepared: &Prepared<'_>,
     motor: &MotorRegression,
 ) -> Option<(FrictionLaw, CurveSums)> {
-    let inertia = motor.inertia?.value;
     let source = Source::of(prepared, motor);
+    let (law, sums) = friction_law_of(source, motor)?;
+    let with_load = law.chosen.term(|term| matches!(term, LawTerm::WithLoad { .. }));
+    let Some(gravity) = law.chosen.gravity.filter(|_| with_load.is_some()) else {
+        return Some((law, sums));
+    };
+    // Without this term the regression's load is a little off.
+    friction_law_of(Source { load: Some(gravity.load()), ..source }, motor)
+}
+
+fn friction_law_of(
+    source: Source<'_>,
+    motor: &MotorRegression,
+) -> Option<(FrictionLaw, CurveSums)> {
+    let inertia = motor.inertia?.value;
     let Source { campaign, mode, .. } = source;
     let sampled = source.sampled();
     let long = Found::of(&sampled, false);

@@ -77,13 +77,14 @@ impl MovingTerm {
 }
 
 /// An estimate that terms which are not known to be absent would change: `by` gives the change of it by those of the line. The
-/// largest that is more than one standard error widens the interval, up to [`WIDENED_MOST`] of the value.
+/// largest that is more than one standard error widens the interval, up to [`WIDENED_MOST`] of the value, or of a larger `size`.
 pub(crate) fn widened(
     e: Estimate,
+    size: f64,
     possible: &[PossibleTerm],
     by: impl Fn(&[f64]) -> f64,
 ) -> Estimate {
     let most = possible.iter().map(|p| by(&p.change).abs()).fold(0.0, f64::max);
     let std = if most > e.std { e.std.hypot(most) } else { e.std };
-    Estimate { std: e.std.max(std.min(WIDENED_MOST * e.value.abs())), ..e }
+    Estimate { std: e.std.max(std.min(WIDENED_MOST * size.max(e.value.abs()))), ..e }
 }

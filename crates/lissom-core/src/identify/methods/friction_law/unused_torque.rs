@@ -38,9 +38,10 @@ impl Unused {
         UnusedTorque { line: share(&self.line), model: share(&self.model) }
     }
 
-    /// Whether the line is better than the model, by the rule that adopts terms.
-    pub(crate) fn is_worse(&self) -> bool {
-        Improvement::between(&self.model, &self.line).is_sure
+    /// Whether the line, or the `other` model, is better than the model, by the rule that adopts terms.
+    pub(crate) fn is_worse(&self, other: Option<&Self>) -> bool {
+        let models = [Some(&self.line), other.map(|other| &other.model)];
+        models.into_iter().flatten().any(|better| Improvement::between(&self.model, better).is_sure)
     }
 
     /// The same with the arm of another method, which was not fitted to this torque. `None` of an arm with modes.

@@ -5,7 +5,7 @@ use crate::identify::drive_estimates::DriveEstimates;
 use crate::identify::estimate::{Estimate, ModeEstimate};
 use crate::identify::friction_estimates::{Friction, LawEstimates};
 use crate::identify::gravity_estimate::Gravity;
-use crate::identify::methods::friction_law::{LawTerm, Motion, Unused};
+use crate::identify::methods::friction_law::{FrictionLaw, LawTerm, Motion, Unused};
 use crate::identify::methods::output_error::found::OutputError;
 use crate::identify::methods::output_error::model::describes::{
     accepted_residual, is_left, is_sound,
@@ -186,10 +186,15 @@ impl OutputError {
         Self { accepted_residual, ..self }
     }
 
-    /// The same beside the line of slip phases: an arm that predicts their torque worse is not accepted.
+    /// The same beside slip phases: an arm that predicts their torque worse than the line, or than a law of friction, is not
+    /// accepted. A lag alone is no reason: the replay has its own.
     #[must_use]
-    pub(crate) fn beside_line(self, unused: Option<Unused>) -> Self {
-        let is_worse = unused.as_ref().is_some_and(Unused::is_worse);
+    pub(crate) fn beside_law(self, unused: Option<Unused>, law: Option<&FrictionLaw>) -> Self {
+        let of_friction = |law: &&FrictionLaw| {
+            law.chosen.terms.iter().any(|(term, _)| !matches!(term, LawTerm::CommandLag))
+        };
+        let lawful = law.filter(of_friction).map(|law| &law.unused);
+        let is_worse = unused.as_ref().is_some_and(|unused| unused.is_worse(lawful));
         let accepted_residual = if is_worse { 0.0 } else { self.accepted_residual };
         Self { accepted_residual, unused, ..self }
     }

@@ -291,7 +291,10 @@ impl MotorRegression {
     pub fn estimates(&self) -> DriveEstimates {
         let counted = |e: Option<Estimate>, weights: &[(usize, f64)]| {
             let of = |change: &[f64]| weights.iter().map(|(i, w)| w * change[*i]).sum();
-            e.map(|e| widened(e, &self.possible, of))
+            // An offset may be zero.
+            let is_offset = weights[0].0 == PLACE_OFFSET;
+            let size = self.coulomb.filter(|_| is_offset).map_or(0.0, |c| c.value.abs());
+            e.map(|e| widened(e, size, &self.possible, of))
         };
         let friction = Friction {
             coulomb: counted(self.coulomb, &[(PLACE_COULOMB, 1.0)]),
