@@ -61,8 +61,8 @@ pub(super) enum Column {
     Sine(f64),
     /// `θ·(−a·sin kθ + b·cos kθ)`, for (k, a, b): what a·cos kθ + b·sin kθ gains with k.
     Turned(f64, f64, f64),
-    /// `a·|v|/v_s²·e^{−|v|/v_s}`, for (v_s, a): what a·e^{−|v|/v_s} gains with v_s.
-    NearRestGain(f64, f64),
+    /// What a·e^{−|v|/v_s} or a·e^{−(v/v_s)²} gains with v_s, for (v_s, a).
+    NearRestGain(f64, Falloff, f64),
     /// `((θ − middle)/half)^power`: position on a travel.
     Position {
         /// Middle of the travel.
@@ -91,8 +91,13 @@ impl Column {
                 let (sin, cos) = (k * angle).sin_cos();
                 angle * (b * cos - a * sin)
             }
-            Self::NearRestGain(fall, size) => {
-                size * speed / (fall * fall) * Falloff::Exponential.share(speed / fall)
+            Self::NearRestGain(fall, falloff, size) => {
+                let ratio = speed / fall;
+                let steeper = match falloff {
+                    Falloff::Exponential => 1.0,
+                    Falloff::Gaussian => 2.0 * ratio,
+                };
+                size * ratio / fall * steeper * falloff.share(ratio)
             }
             Self::Position { middle, half, power } => ((angle - middle) / half).powi(power),
             Self::Lag | Self::Rate(_) | Self::Hat(_) => 0.0,
@@ -132,7 +137,9 @@ impl LawTerm {
     /// What the term with these amplitudes gains with it.
     pub(super) fn gain(self, amplitudes: &[f64]) -> Column {
         match (self, amplitudes) {
-            (Self::NearRest { speed, .. }, [size, ..]) => Column::NearRestGain(speed, *size),
+            (Self::NearRest { speed, falloff }, [size, ..]) => {
+                Column::NearRestGain(speed, falloff, *size)
+            }
             (_, [cosine, sine, ..]) => Column::Turned(self.scanned(), *cosine, *sine),
             _ => Column::Root,
         }

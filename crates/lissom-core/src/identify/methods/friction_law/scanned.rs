@@ -2,6 +2,7 @@
 
 use rayon::prelude::*;
 
+use crate::drive::Falloff;
 use crate::identify::methods::friction_law::blocks::Regressor;
 use crate::identify::methods::friction_law::candidates::{Candidate, ModelTerm, law_regressors};
 use crate::identify::methods::friction_law::choice::{Offer, Search};
@@ -63,9 +64,34 @@ impl Search<'_> {
         offers
     }
 
-    /// Takes a term whose speed or frequency was scanned: moves that to the least residual, and adds a column for what the term
-    /// gains with it, so that it is estimated with the rest.
+    /// Takes a term whose speed or frequency was scanned; friction near rest in the shape that leaves less.
     pub(super) fn take_scanned(&mut self, term: LawTerm) {
+        let (width, count) = (self.rows.width(), self.taken.len());
+        self.take_at_least(term);
+        let Some(LawTerm::NearRest { speed, .. }) = self.taken.last().and_then(|t| t.term.law())
+        else {
+            return;
+        };
+        // The Gaussian that is nearest to an exponential has a larger speed.
+        let speed = NEAR_REST_APART * speed;
+        let (rows, taken, left) = (self.rows.clone(), self.taken.clone(), self.left());
+        self.rows.truncate(width);
+        self.taken.truncate(count);
+        self.take_at_least(LawTerm::NearRest { speed, falloff: Falloff::Gaussian });
+        if self.left() > left {
+            (self.rows, self.taken) = (rows, taken);
+        }
+    }
+
+    /// What the terms taken leave of the torque.
+    fn left(&self) -> f64 {
+        let (columns, total) = (self.columns(), self.rows.total());
+        total.values(&columns).map_or(f64::INFINITY, |value| total.squared(&columns, &value))
+    }
+
+    /// Moves the speed or the frequency of a term to the least residual, and adds a column for what the term gains with it, so that
+    /// it is estimated with the rest.
+    fn take_at_least(&mut self, term: LawTerm) {
         let first = self.rows.width();
         let start = term.scanned();
         let [least, most] = if let LawTerm::NearRest { .. } = term {
