@@ -9,7 +9,7 @@ use rayon::prelude::*;
 use crate::identify::drive_estimates::DriveEstimates;
 use crate::identify::methods::regression::thresholds::{BLOCKS_WANTED, FEW_PHASES};
 use crate::identify::methods::regression::{
-    Candidate, Cluster, Fitted, ModeTerms, MotorColumns, MotorEquation, Phase, Rows,
+    Candidate, Cluster, Fitted, Further, ModeTerms, MotorColumns, MotorEquation, Phase, Rows,
     SMOOTHING_LEAST, SineAndCosine, Term, WINDOW_STEP, Window, scan, solve, velocity_and_phases,
 };
 use crate::identify::methods::thresholds::{SLOWEST_SAMPLE, STANDING_SHARE};
@@ -250,7 +250,7 @@ impl Line<'_> {
                 mode: ModeTerms::None,
             };
             let rows = LineRow { plain, direction: &moving.direction };
-            let noise = plain.noise(moving.noise, 1);
+            let noise = plain.noise(moving.noise, Some(Further::WithoutNoise));
             for phase in &moving.phases {
                 let middles: Vec<usize> = moving.middles(phase, n, least).collect();
                 let parts = parts.min(middles.len() / 8).max(1);

@@ -254,7 +254,7 @@ fn friction_law_of(
         lag
     } else {
         // Beside what varies over less than a long window.
-        let same = long.filter(|_| window_s == motor.window_s);
+        let same = long.filter(|_| window_s.total_cmp(&motor.window_s).is_eq());
         let found = same.or_else(|| Found::of(&in_time, false))?;
         let Some(lag) = found.lag(&short) else {
             let line = found.search.left_out_by_line()?;

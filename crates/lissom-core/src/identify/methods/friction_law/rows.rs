@@ -10,8 +10,8 @@ use rayon::prelude::*;
 use crate::identify::methods::friction_law::column_values::ColumnValues;
 use crate::identify::methods::friction_law::law_term::Column;
 use crate::identify::methods::regression::{
-    ModeShape, ModeTerms, ModeWindow, MotorColumns, MotorEquation, Phase, Rows, SMOOTHED_PART,
-    SMOOTHING_LEAST, SineAndCosine, WINDOW_STEP, Window, velocity_and_phases,
+    Further, ModeShape, ModeTerms, ModeWindow, MotorColumns, MotorEquation, Phase, Rows,
+    SMOOTHED_PART, SMOOTHING_LEAST, SineAndCosine, WINDOW_STEP, Window, velocity_and_phases,
 };
 use crate::identify::methods::thresholds::SLOWEST_SAMPLE;
 use crate::identify::prepare::run_noise::RunNoise;
@@ -123,7 +123,7 @@ impl<'a> Sampled<'a> {
                     let columns = &columns;
                     let mode = ModeTerms::of(mode.as_ref(), None);
                     MotorEquation { campaign, run, columns, gravity: None, window, mode }
-                        .noise(noise, 1)
+                        .noise(noise, Some(Further::LaterTorque))
                 },
             );
             let gravity = columns.gravity.then(|| SineAndCosine::of(run.motor()));

@@ -37,7 +37,7 @@ pub use motor::{MotorRegression, motor_regression};
 pub(crate) use motor_columns::{
     MotorColumns, PLACE_COULOMB, PLACE_INERTIA, PLACE_OFFSET, PLACE_VISCOUS, coupled_tips,
 };
-pub(crate) use motor_rows::{ModeTerms, MotorEquation, SineAndCosine};
+pub(crate) use motor_rows::{Further, ModeTerms, MotorEquation, SineAndCosine};
 pub(crate) use normal::{
     Cluster, NormalSums, Rows, ScoredEstimates, Scores, Solution, Term, solve, solve_sums,
     values_of,

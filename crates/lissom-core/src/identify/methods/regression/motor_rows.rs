@@ -126,7 +126,7 @@ impl<'a> MotorRows<'a> {
             command: self.command_noise * slipping.noise.command,
             ..slipping.noise.clone()
         };
-        let noise = plain.noise(of_run, usize::from(with_delay));
+        let noise = plain.noise(of_run, with_delay.then_some(Further::LaterTorque));
         let cluster = |(phase, part): (&Phase, Range<usize>)| {
             let mut cluster = Cluster::new(index, phase.sign, columns);
             let windows = part.step_by(step);
@@ -277,10 +277,18 @@ impl Rows for MotorEquation<'_> {
     }
 }
 
+/// A column beside those of the equation.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum Further {
+    /// `∫ẇτ`, which has the noise of the command.
+    LaterTorque,
+    /// One that the sensors' noise hardly changes.
+    WithoutNoise,
+}
+
 impl MotorEquation<'_> {
-    /// What noise adds to a row's products, in expectation; of the `further` columns before the right side the first is
-    /// that of a later torque, and the others have none.
-    pub(crate) fn noise(&self, of_run: &RunNoise, further: usize) -> DMatrix<f64> {
+    /// What noise adds to a row's products, in expectation, with a `further` column before the right side.
+    pub(crate) fn noise(&self, of_run: &RunNoise, further: Option<Further>) -> DMatrix<f64> {
         let window = self.window;
         let [inertia, viscous] = self.of_angle();
         let mut of_motor: Vec<ChannelPart<'_>> =
@@ -295,10 +303,10 @@ impl MotorEquation<'_> {
             let of_tip: Vec<ChannelPart<'_>> = vec![(column, &window.value, -1.0)];
             channels.push((of_run.tips[i], of_tip));
         }
-        let count = self.columns.count() + further + 1;
+        let count = self.columns.count() + usize::from(further.is_some()) + 1;
         let command = &self.campaign.channels.command;
         let mut of_command: Vec<ChannelPart<'_>> = vec![(count - 1, self.of_torque().0, 1.0)];
-        if further > 0 {
+        if further == Some(Further::LaterTorque) {
             of_command.push((self.columns.count(), &window.first, 1.0));
         }
         if let (Some(place), ModeTerms::Sought(weights)) = (self.columns.of_mode(), self.mode) {

@@ -159,13 +159,13 @@ fn choose(tried: &[(f64, Solution)], counts: &[bool], given: Option<f64>) -> Opt
 }
 
 /// Change of each estimate from the next shorter to the next longer window; twice that to the one neighbour where there
-/// is only one.
+/// is only one that tells it.
 pub(super) fn change(
     shorter: Option<&Solution>,
     here: &Solution,
     longer: Option<&Solution>,
 ) -> Vec<f64> {
-    let of = |i: usize| match (shorter, longer) {
+    let of = |i: usize| match [shorter, longer].map(|s| s.filter(|s| !s.inseparable[i])).into() {
         (Some(a), Some(b)) => b.value[i] - a.value[i],
         (Some(a), None) | (None, Some(a)) => 2.0 * (a.value[i] - here.value[i]),
         (None, None) => 0.0,
