@@ -10,7 +10,7 @@ use crate::identify::methods::friction_law::thresholds::{
 
 /// Parts of the campaign, in the order of time, that are left out one after another.
 const FOLDS: usize = 10;
-/// Stretches of the campaign that are dealt to two halves in turn.
+/// Stretches of the campaign, of both directions each, that are dealt to two halves in turn.
 const STRETCHES: usize = 8;
 /// Groups of windows in each of the ways to leave out a kind of motion.
 const BY_SPEED: usize = 6;
@@ -98,7 +98,7 @@ impl Divided {
 
     /// Which half a block belongs to.
     pub(super) fn half(block: usize, blocks: usize) -> usize {
-        block * STRETCHES.min(blocks) / blocks.max(1) % 2
+        block * STRETCHES.min(blocks / 2) / blocks.max(1) % 2
     }
 
     /// Sums of all rows.
