@@ -50,6 +50,7 @@ pub mod equivalent_section;
 #[cfg(feature = "fleet")]
 pub mod fleet_page;
 pub mod friction_curve;
+pub mod friction_speeds;
 pub mod known_arm;
 mod named_figure;
 mod own_logs;

@@ -12,6 +12,7 @@ use lissom_report::{
 };
 
 use crate::digits::counted;
+use crate::friction_speeds::friction_speeds_words;
 use crate::known_arm::Reference;
 use crate::parameter_rows::{KNOWN_DIGITS, ParameterRow, classical_rows, parameter_rows};
 use crate::program_hints::ProgramHints;
@@ -65,6 +66,10 @@ pub fn page(title: &str, content: PageContent<'_>) -> Page {
     );
     if let Some(words) = unused_torque_words(result) {
         page = page.paragraph(&format!("Unused {words}."));
+    }
+    let speeds = friction_speeds_words(result);
+    if !speeds.is_empty() {
+        page = page.paragraph(&format!("{}.", speeds.join(". ")));
     }
     page = separability_section::section(page, result);
     page = motion_section(page, result, logs);

@@ -7,6 +7,7 @@ use lissom::DescribedLogs;
 use lissom::identify::{Effort, Identified, Severity};
 use lissom_io::write::{self, Batch};
 use lissom_io::{ResultFile, UnitNames, read_campaign};
+use lissom_views::friction_speeds::friction_speeds_words;
 use lissom_views::known_arm::checked;
 use lissom_views::report_page::{self, PageContent};
 use lissom_views::unused_torque::unused_torque_words;
@@ -87,7 +88,7 @@ pub(crate) fn run(args: &IdentifyArgs) -> Result<ExitCode, Failure> {
         if let Some(words) = unused_torque_words(&result) {
             printer::line(&words);
         }
-        parameter_table::speeds_of_law(names, &id);
+        friction_speeds_words(&result).iter().for_each(|words| printer::line(words));
         parameter_table::constant_velocity(&result);
         if let Some(found) = &result.equivalent {
             equivalent_table::brief(names, found);

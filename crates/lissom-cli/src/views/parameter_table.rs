@@ -1,6 +1,5 @@
 //! The parameters of a result.
 
-use lissom::identify::Identified;
 use lissom_io::result::DirectionName;
 use lissom_io::{ResultFile, UnitNames};
 use lissom_report::{interval, significant, with_uncertainty};
@@ -35,33 +34,6 @@ pub(crate) fn parameters(names: UnitNames, result: &ResultFile, reference: Optio
         line(&format!(
             "Values with {per_command} or {} contain any error of the torque constant; the standard errors do not.",
             if per_command == "N" { "kg" } else { "kg·m²" }
-        ));
-    }
-}
-
-/// Prints the speeds for which the friction law and the friction curve hold, if the result has such a law.
-pub(crate) fn speeds_of_law(names: UnitNames, id: &Identified) {
-    let Some(law) = id.friction_law.as_ref().filter(|_| id.friction.law.is_some()) else { return };
-    let unit = format!("{}/s", names.angle());
-    let range = |[slowest, fastest]: [f64; 2]| {
-        format!("{} to {} {unit}", significant(slowest, 3), significant(fastest, 3))
-    };
-    line("");
-    line(&format!(
-        "speeds in the logs, for which the friction law was fitted: {}",
-        range(law.speed_range)
-    ));
-    line(&format!(
-        "Coulomb and viscous friction are the straight line nearest to the law at speeds of {}{}",
-        range(law.line_speed_range),
-        if id.gravity.is_some() { ", under the mean load" } else { "" }
-    ));
-    let speeds = || law.curve.iter().map(|p| p.speed);
-    if let Some(slowest) = speeds().min_by(f64::total_cmp) {
-        let fastest = speeds().fold(slowest, f64::max);
-        line(&format!(
-            "the curve of friction against speed (on the report page) is measured from {}",
-            range([slowest, fastest])
         ));
     }
 }

@@ -99,6 +99,22 @@ impl Identified {
         self.output_error.as_ref().is_some_and(|found| found.end == SearchEnd::Interrupted)
     }
 
+    /// Slowest and fastest speed at which Coulomb and viscous friction of the line hold \[rad/s or m/s\]: those of the windows that
+    /// they are estimated in, or, where they stand for a law, those of the motion that they are the nearest line in. `None` if no
+    /// method knows them.
+    pub fn speeds_of_line(&self) -> Option<[f64; 2]> {
+        self.friction.coulomb.or(self.friction.viscous)?;
+        match self.method? {
+            Method::LeastSquares => self.least_squares.as_ref().map(|line| line.speed_range),
+            Method::OutputError | Method::FrictionLaw | Method::Regression => {
+                let law = self.friction_law.as_ref()?;
+                let is_line = self.friction.law.is_none();
+                Some(if is_line { law.speed_range } else { law.line_speed_range })
+            }
+            Method::FrequencyResponse | Method::ThirdHarmonic | Method::ConstantVelocity => None,
+        }
+    }
+
     /// Joins what the methods found and what was taken of it; nothing changes afterwards.
     pub(super) fn new(
         campaign: &Campaign,

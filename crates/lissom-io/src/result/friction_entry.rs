@@ -31,7 +31,8 @@ pub struct FrictionEntry {
     pub coulomb: CoulombEntry,
     /// Viscous friction, without back-EMF if its constant is given.
     pub viscous: Option<EstimateEntry>,
-    /// Slowest and fastest speed of the line of Coulomb and viscous friction, where a law stands beside it.
+    /// Slowest and fastest speed at which Coulomb and viscous friction hold: those of the windows that they are estimated in, or,
+    /// where they stand for a law, those of the motion; absent if no method knows them.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub speed_range: Option<NumberEntry<[f64; 2]>>,
     /// The law of friction, if it has terms beyond Coulomb and viscous friction; these are then the line that is nearest to it at
@@ -108,7 +109,7 @@ impl FrictionEntry {
         let found = id.friction_law.as_ref();
         let curve = found.map_or(&[][..], |law| &law.curve);
         let speeds = found.map(|law| law.speed_range);
-        let of_line = found.filter(|_| f.law.is_some()).map(|law| law.line_speed_range);
+        let of_line = id.speeds_of_line();
         Self {
             coulomb: CoulombEntry::of(names, f),
             viscous: EstimateEntry::or_null(f.viscous, names.viscous_unit()),

@@ -191,15 +191,16 @@ impl<'a> Search<'a> {
             self.with(&offers.iter().map(|o| o.of(half)).collect::<Vec<_>>())
         };
         let all = of(None);
+        let amplitudes = offers.iter().map(|o| o.all.columns.len()).sum();
         let after = self.divided.left_out(&all)?;
         let scanned = offers.iter().any(|o| o.halves[0] != o.all || o.halves[1] != o.all);
         let improvement = if scanned {
             let own = self.columns();
             let without = self.divided.across_halves([&own, &own])?;
             let with = self.divided.across_halves([&of(Some(0)), &of(Some(1))])?;
-            Improvement::between(&without, &with)
+            Improvement::between(&without, &with, amplitudes)
         } else {
-            Improvement::between(&before.by_block, &after.by_block)
+            Improvement::between(&before.by_block, &after.by_block, amplitudes)
         };
         let across_kinds = after.is_better_across_kinds(before);
         if offers.len() > 1 && !(improvement.is_sure && across_kinds) {
@@ -344,7 +345,9 @@ impl<'a> Search<'a> {
             self.divided.left_out(&(0..self.line).chain(further).collect::<Vec<_>>())
         };
         let both = left_out(without).zip(left_out(all));
-        both.is_none_or(|(a, b)| Improvement::between(&a.by_block, &b.by_block).is_sure)
+        let columns = |terms: &[&Candidate]| terms.iter().map(|c| c.columns.len()).sum::<usize>();
+        let more = columns(all) - columns(without);
+        both.is_none_or(|(a, b)| Improvement::between(&a.by_block, &b.by_block, more).is_sure)
     }
 }
 

@@ -291,7 +291,7 @@ pub(crate) fn predicts_better(
     let sampled = source.sampled();
     let without = Found::of(&sampled, false).and_then(|found| found.search.left_out_shares());
     let both = without.as_ref().zip(law.and_then(|law| law.left_out_of_regression.as_ref()));
-    both.is_some_and(|(without, with)| Improvement::between(without, with).is_sure)
+    both.is_some_and(|(without, with)| Improvement::between(without, with, 1).is_sure)
 }
 
 /// Whether a lag is a filter or a delay, its time \[s\], and the residual with it over that without.

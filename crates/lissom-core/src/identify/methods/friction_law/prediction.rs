@@ -165,12 +165,12 @@ pub(super) struct Improvement {
 }
 
 impl Improvement {
-    /// Of the squared residuals `with` a term over those `without` it.
+    /// Of the squared residuals `with` some amplitudes more over those `without` them.
     ///
     /// What a block saves counts as a share of its own residual: in a sweep the residuals of the fast blocks are many times
     /// those of the slow ones. Neighbouring blocks are joined, two, four and more together, as long as there are enough of
     /// them: residuals that belong together over longer times make the standard error larger.
-    pub(super) fn between(without: &ByBlock, with: &ByBlock) -> Self {
+    pub(super) fn between(without: &ByBlock, with: &ByBlock, amplitudes: usize) -> Self {
         let pairs = without.beyond_noise.iter().zip(&with.beyond_noise);
         let each: Vec<(f64, f64)> =
             pairs.map(|(a, b)| a - b).zip(without.all.iter().copied()).collect();
@@ -179,9 +179,9 @@ impl Improvement {
         };
         let (saved, all) = sums(&each);
         let saved = saved / all.max(f64::MIN_POSITIVE);
-        let enough = each.len() >= BLOCKS_LEAST;
-        let mut found =
-            Self { saved, standard_errors: f64::INFINITY, is_sure: enough && saved > SAVED_LEAST };
+        let worth = saved > SAVED_LEAST * amplitudes as f64;
+        let is_sure = each.len() >= BLOCKS_LEAST && worth;
+        let mut found = Self { saved, standard_errors: f64::INFINITY, is_sure };
         let mut together = 1;
         while each.len() / together >= BLOCKS_LEAST {
             let joined = each.chunks(together).map(|some| {

@@ -41,7 +41,10 @@ impl Unused {
     /// Whether the line, or the `other` model, is better than the model, by the rule that adopts terms.
     pub(crate) fn is_worse(&self, other: Option<&Self>) -> bool {
         let models = [Some(&self.line), other.map(|other| &other.model)];
-        models.into_iter().flatten().any(|better| Improvement::between(&self.model, better).is_sure)
+        models
+            .into_iter()
+            .flatten()
+            .any(|better| Improvement::between(&self.model, better, 1).is_sure)
     }
 
     /// The same with the arm of another method, which was not fitted to this torque. `None` of an arm with modes.
