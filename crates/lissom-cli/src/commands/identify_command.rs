@@ -88,7 +88,9 @@ pub(crate) fn run(args: &IdentifyArgs) -> Result<ExitCode, Failure> {
         if let Some(words) = unused_torque_words(&result) {
             printer::line(&words);
         }
-        friction_speeds_words(&result).iter().for_each(|words| printer::line(words));
+        for words in friction_speeds_words(&result) {
+            printer::line(&words);
+        }
         parameter_table::constant_velocity(&result);
         if let Some(found) = &result.equivalent {
             equivalent_table::brief(names, found);
