@@ -86,7 +86,7 @@ impl Case<'_> {
 
     fn cost(&self, arm: &ModalArm) -> f64 {
         let masks = self.masks();
-        costs(arm, self.campaign, self.windows, self.sampling(&masks)).iter().sum()
+        costs(arm, self.campaign, self.windows, self.sampling(&masks)).iter().map(|w| w.cost).sum()
     }
 
     /// The gradient by central differences.
@@ -108,7 +108,7 @@ impl Case<'_> {
     }
 
     fn sampling<'b>(&'b self, masks: &'b [Vec<Option<Vec<bool>>>]) -> Sampling<'b> {
-        Sampling { noise: self.noise, blocks: &[], masks }
+        Sampling { noise: self.noise, blocks: &[], masks, command_noise: 0.0 }
     }
 
     fn bench(&self, c: &mut Criterion, name: &str) {

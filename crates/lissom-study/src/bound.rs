@@ -57,7 +57,7 @@ impl Bound {
         });
         let windows: Vec<Window> = windows.collect();
         let masks = vec![vec![None; 1 + tips]; windows.len()];
-        let sampling = Sampling { noise: &noise, blocks: &[], masks: &masks };
+        let sampling = Sampling { noise: &noise, blocks: &[], masks: &masks, command_noise: 0.0 };
         let parameters = unknowns(&arm, campaign.law);
         let sums = sums(&arm, &parameters, &campaign.logs, &windows, sampling);
         let shared = parameters.len();

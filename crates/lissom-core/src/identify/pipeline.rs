@@ -10,10 +10,7 @@ use crate::identify::judge::{Evidence, Methods, conclude, slip_phase_solution, s
 use crate::identify::methods::constant_velocity;
 use crate::identify::methods::friction_law::{FrictionLaw, friction_law, predicts_better};
 use crate::identify::methods::least_squares::least_squares;
-use crate::identify::methods::output_error::thresholds::COMMAND_NOISE_MOST;
-use crate::identify::methods::output_error::{
-    OutputError, OutputErrorStart, command_noise, output_error,
-};
+use crate::identify::methods::output_error::{OutputError, OutputErrorStart, output_error};
 use crate::identify::methods::regression::thresholds::FEW_PHASES;
 use crate::identify::methods::regression::{
     BeamRegression, MotorRegression, beam_regression, other_hold,
@@ -179,10 +176,7 @@ pub fn identify(
     let shown = tables.without_friction_known();
     let tips_model = beam_model(campaign, &shown);
     let replayed = any_regression.filter(|_| options.effort != Effort::Quick);
-    let command_noise = replayed.as_ref().and_then(|r| command_noise(prepared.used(), r));
-    let command_noise = command_noise.filter(|ratio| *ratio > COMMAND_NOISE_MOST);
-    let replayable = replayed.filter(|_| command_noise.is_none());
-    let output_error = replayable.and_then(|motor| {
+    let output_error = replayed.and_then(|motor| {
         progress(Stage::OutputError);
         let corrected = || tables.with_square_wave(best);
         let (beam, tips) = (any_beam_regression.as_ref(), tips_model.as_ref());
@@ -247,7 +241,6 @@ pub fn identify(
         constant_velocity,
         beam_regression,
         output_error,
-        command_noise,
         beam_model,
         motor_model,
     };

@@ -49,7 +49,7 @@ pub fn growing_information(
         noise.iter().map(|n| SensorNoise::gaussian(n.deviation())).collect();
     let masks = vec![vec![None; noise.len()]; campaign.runs.len()];
     let blocks = vec![Blocks { samples, period: None }; campaign.runs.len()];
-    let sampling = Sampling { noise: &noise, blocks: &blocks, masks: &masks };
+    let sampling = Sampling { noise: &noise, blocks: &blocks, masks: &masks, command_noise: 0.0 };
     let of_window = |(sums, window): (&WindowSums, &Window)| {
         let size = sums.gram.ncols() - 1;
         let mut gram = DMatrix::zeros(size, size);

@@ -181,10 +181,12 @@ mod tests {
             let (mut model, campaign, window) = late(hold, TipQuantity::Angle);
             model.tip_lags_s = lags.map(|lag| lag * T).to_vec();
             let noise = [SensorNoise::gaussian(1e-3); 3];
-            let sampling = Sampling { noise: &noise, blocks: &[], masks: &[vec![None; 3]] };
+            let masks = [vec![None; 3]];
+            let sampling =
+                Sampling { noise: &noise, blocks: &[], masks: &masks, command_noise: 0.0 };
             let windows = [window];
             let found = &sums(&model, &parameters, &campaign, &windows, sampling)[0];
-            let cost = |model: &ModalArm| costs(model, &campaign, &windows, sampling)[0];
+            let cost = |model: &ModalArm| costs(model, &campaign, &windows, sampling)[0].cost;
             for (i, p) in parameters.iter().enumerate() {
                 if lags.contains(&0.0) && *p == Parameter::TipLag(0) {
                     // The next reading tells of another sample: a difference is none.

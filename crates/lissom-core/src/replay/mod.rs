@@ -10,6 +10,7 @@
 mod arm_modes;
 mod events;
 mod friction;
+mod innovations;
 mod lanes;
 mod late_tips;
 mod linear;
@@ -39,8 +40,8 @@ pub use modal_arm::{MOST_MODES, ModalArm, Oscillator};
 pub use noise::SensorNoise;
 pub use parameter::{Parameter, free_parameters};
 pub use point_masses::{BeamCoordinate, BeamDerivative, PointMasses};
-pub use prediction::{Prediction, predict};
-pub use sums::{Blocks, Sampling, Window, WindowSums, costs, sums};
+pub use prediction::{Prediction, innovations, predict};
+pub use sums::{Blocks, Sampling, Window, WindowCost, WindowSums, costs, sums};
 
 #[cfg(test)]
 mod tests;

@@ -1,8 +1,10 @@
 //! Prediction of sensor readings under a logged command.
 
+use super::innovations::Innovations;
 use super::late_tips::LateTips;
 use super::modal_arm::{MOST_MODES, ModalArm};
-use super::sums::{Window, replayers, start};
+use super::sums::{Sampling, Window, replayers, start};
+use crate::friction::Mode;
 use crate::record::Campaign;
 
 /// Predicted readings over one window.
@@ -32,12 +34,69 @@ pub fn predict(arm: &ModalArm, campaign: &Campaign, window: &Window) -> Option<P
     }
 }
 
+/// Series of a window's residuals, each with a value for each channel and sample, as innovations in standard deviations: what
+/// each reading shows beyond a prediction from those before, where noise of the command moves the replay. Readings of late tips,
+/// and those that do not count, stay zero.
+pub fn innovations(
+    arm: &ModalArm,
+    campaign: &Campaign,
+    window: &Window,
+    sampling: Sampling<'_>,
+    series: &[Vec<Vec<f64>>],
+) -> Vec<Vec<Vec<f64>>> {
+    match arm.modes.len() {
+        0 => innovations_of::<2>(arm, campaign, window, sampling, series),
+        1 => innovations_of::<4>(arm, campaign, window, sampling, series),
+        2 => innovations_of::<6>(arm, campaign, window, sampling, series),
+        3 => innovations_of::<8>(arm, campaign, window, sampling, series),
+        MOST_MODES => innovations_of::<10>(arm, campaign, window, sampling, series),
+        _ => Vec::new(),
+    }
+}
+
+fn innovations_of<const D: usize>(
+    arm: &ModalArm,
+    campaign: &Campaign,
+    window: &Window,
+    sampling: Sampling<'_>,
+    series: &[Vec<Vec<f64>>],
+) -> Vec<Vec<Vec<f64>>> {
+    let replayers = replayers::<D>(arm, &[], campaign, std::slice::from_ref(window), true);
+    let Some((_, replayer)) = replayers.first() else { return Vec::new() };
+    let run = &campaign.runs[window.run];
+    let (first, samples) = (*window.samples.start(), window.len());
+    let of = |residuals: &Vec<Vec<f64>>| {
+        let mut found = vec![vec![0.0; samples]; residuals.len()];
+        let (noise, units) = (sampling.command_noise, replayer.units());
+        let mut beyond = Innovations::<D>::new(noise, replayer.sample_time_s(), units);
+        let late = LateTips::new(replayer, window.samples.clone(), false);
+        replayer.walk(run, window.samples.clone(), start(window), false, |seen| {
+            if seen.sample > first {
+                let slips = seen.motion.mode != Mode::Stick;
+                beyond.advance(&mut seen.motion.tangents, slips);
+            }
+            for (channel, mask) in sampling.masks[window.run].iter().enumerate() {
+                if !late.is_in_time(channel) || mask.as_ref().is_some_and(|m| !m[seen.sample]) {
+                    continue;
+                }
+                let variance = sampling.noise[channel].deviation().powi(2);
+                let residual = residuals[channel][seen.sample - first];
+                let told = beyond.of(&replayer.shown(seen, channel), residual, variance);
+                found[channel][seen.sample - first] = told.value / told.variance.sqrt();
+                beyond.learn(&told, &mut seen.motion.tangents, None);
+            }
+        });
+        found
+    };
+    series.iter().map(of).collect()
+}
+
 fn predict_of<const D: usize>(
     arm: &ModalArm,
     campaign: &Campaign,
     window: &Window,
 ) -> Option<Prediction> {
-    let replayers = replayers::<D>(arm, &[], campaign, std::slice::from_ref(window));
+    let replayers = replayers::<D>(arm, &[], campaign, std::slice::from_ref(window), false);
     let (_, replayer) = replayers.first()?;
     let run = &campaign.runs[window.run];
     let first = *window.samples.start();

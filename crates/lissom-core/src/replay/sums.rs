@@ -5,12 +5,14 @@ use std::ops::RangeInclusive;
 use nalgebra::{Const, DMatrix, DMatrixView, Dyn, MatrixView};
 use rayon::prelude::*;
 
+use super::innovations::Innovations;
 use super::late_tips::LateTips;
 use super::losses::Losses;
 use super::modal_arm::{MOST_MODES, ModalArm};
 use super::noise::SensorNoise;
 use super::parameter::Parameter;
-use super::window::Replayer;
+use super::window::{Replayer, Seen};
+use crate::friction::Mode;
 use crate::record::{Campaign, Run};
 
 /// Most numbers in the rows that are gathered before their products are summed: they stay near the
@@ -84,6 +86,9 @@ pub struct Sampling<'a> {
     pub blocks: &'a [Blocks],
     /// For each run and channel, which readings count; `None` if all count.
     pub masks: &'a [Vec<Option<Vec<bool>>>],
+    /// Standard deviation of the acceleration of the motor that noise of the measured command makes in one sample
+    /// \[rad/s² or m/s²\]; zero if what is logged is what acts. Steps of sensors are then counted as noise.
+    pub command_noise: f64,
 }
 
 /// How the samples of a run are grouped to blocks whose residuals are correlated.
@@ -128,13 +133,22 @@ pub fn sums(
     }
 }
 
+/// What a window costs, without derivatives.
+#[derive(Debug, Clone, Copy, Default, PartialEq)]
+pub struct WindowCost {
+    /// [`WindowSums::cost`].
+    pub cost: f64,
+    /// `Σ ln(S/σ²)`, by which noise of the command makes readings less certain; zero without it.
+    pub widened: f64,
+}
+
 /// Costs of the windows, without derivatives; takes a fifth of the time of [`sums`].
 pub fn costs(
     arm: &ModalArm,
     campaign: &Campaign,
     windows: &[Window],
     sampling: Sampling<'_>,
-) -> Vec<f64> {
+) -> Vec<WindowCost> {
     match arm.modes.len() {
         0 => costs_of::<2>(arm, campaign, windows, sampling),
         1 => costs_of::<4>(arm, campaign, windows, sampling),
@@ -150,15 +164,18 @@ fn costs_of<const D: usize>(
     campaign: &Campaign,
     windows: &[Window],
     sampling: Sampling<'_>,
-) -> Vec<f64> {
-    let replayers = replayers::<D>(arm, &[], campaign, windows);
+) -> Vec<WindowCost> {
+    let noisy = sampling.command_noise > 0.0;
+    let replayers = replayers::<D>(arm, &[], campaign, windows, noisy);
     let losses = losses(sampling);
     let of_window = |window: &Window| {
         let run = &campaign.runs[window.run];
-        let mut cost = 0.0;
+        let mut cost = WindowCost::default();
         let replayer = replayer_of(&replayers, run);
         let mut late = LateTips::new(replayer, window.samples.clone(), false);
+        let mut beyond = innovations(replayer, sampling);
         replayer.walk(run, window.samples.clone(), start(window), false, |seen| {
+            advance(&mut beyond, seen, window);
             for (channel, mask) in sampling.masks[window.run].iter().enumerate() {
                 let counts = |sample: usize| counts(mask.as_ref(), sample);
                 if late.is_in_time(channel) && !counts(seen.sample) {
@@ -167,7 +184,17 @@ fn costs_of<const D: usize>(
                 let told = late.output(replayer, seen, channel, None);
                 let Some((sample, predicted)) = told.filter(|t| counts(t.0)) else { continue };
                 let residual = window.residual(run, channel, sample, predicted);
-                cost += losses[channel].cost(residual);
+                let Some(beyond) = &mut beyond else {
+                    cost.cost += losses[channel].cost(residual);
+                    continue;
+                };
+                let variance = sampling.noise[channel].deviation().powi(2);
+                let told = beyond.of(&replayer.shown(seen, channel), residual, variance);
+                cost.cost += told.value * told.value / told.variance;
+                cost.widened += (told.variance / variance).ln();
+                if late.is_in_time(channel) {
+                    beyond.learn(&told, &mut seen.motion.tangents, None);
+                }
             }
         });
         cost
@@ -201,7 +228,8 @@ fn sums_of<const D: usize>(
     windows: &[Window],
     sampling: Sampling<'_>,
 ) -> Vec<WindowSums> {
-    let replayers = replayers::<D>(arm, parameters, campaign, windows);
+    let noisy = sampling.command_noise > 0.0;
+    let replayers = replayers::<D>(arm, parameters, campaign, windows, noisy);
     let losses = losses(sampling);
     // One by one: in groups a thread would be left with one while the others have none.
     windows
@@ -220,17 +248,42 @@ pub(super) fn replayers<'a, const D: usize>(
     parameters: &'a [Parameter],
     campaign: &'a Campaign,
     windows: &[Window],
+    with_units: bool,
 ) -> Vec<(f64, Replayer<'a, D>)> {
     let mut times: Vec<f64> =
         windows.iter().map(|w| campaign.runs[w.run].sample_time_s()).collect();
     times.sort_by(f64::total_cmp);
     times.dedup();
-    times.into_iter().map(|t| (t, Replayer::new(arm, parameters, &campaign.channels, t))).collect()
+    let of = |t: f64| (t, Replayer::new(arm, parameters, &campaign.channels, t, with_units));
+    times.into_iter().map(of).collect()
 }
 
 /// A window's start as an array; what it lacks is zero.
 pub(super) fn start<const D: usize>(window: &Window) -> [f64; D] {
     std::array::from_fn(|i| window.start.get(i).copied().unwrap_or(0.0))
+}
+
+/// The filter of a window, if noise of the command moves its replay.
+fn innovations<const D: usize>(
+    replayer: &Replayer<'_, D>,
+    sampling: Sampling<'_>,
+) -> Option<Innovations<D>> {
+    let noise = sampling.command_noise;
+    (noise > 0.0).then(|| Innovations::new(noise, replayer.sample_time_s(), replayer.units()))
+}
+
+/// To the sample that is seen.
+fn advance<const D: usize>(
+    beyond: &mut Option<Innovations<D>>,
+    seen: &mut Seen<'_, D>,
+    window: &Window,
+) {
+    if let Some(beyond) = beyond
+        && seen.sample > *window.samples.start()
+    {
+        let slips = seen.motion.mode != Mode::Stick;
+        beyond.advance(&mut seen.motion.tangents, slips);
+    }
 }
 
 fn sum_up<const D: usize>(
@@ -260,7 +313,9 @@ fn sum_up<const D: usize>(
     let first = *window.samples.start();
     let mut block = None;
     let mut late = LateTips::new(replayer, window.samples.clone(), true);
+    let mut beyond = innovations(replayer, sampling);
     replayer.walk(run, window.samples.clone(), start(window), true, |seen| {
+        advance(&mut beyond, seen, window);
         let own = blocks.map(|b| b.of(seen.sample, first));
         if own != block || rows.len() > MOST_NUMBERS {
             found.add(&mut rows, block);
@@ -274,11 +329,23 @@ fn sum_up<const D: usize>(
             let told = late.output(replayer, seen, channel, Some(&mut row));
             let Some((sample, predicted)) = told.filter(|t| counts(t.0)) else { continue };
             let residual = window.residual(run, channel, sample, predicted);
-            found.squares[channel] += residual * residual;
             found.readings[channel] += 1;
-            let loss = losses[channel].loss(residual);
-            found.cost += loss.cost;
             let variance = sampling.noise[channel].deviation().powi(2);
+            let (loss, variance) = match &mut beyond {
+                None => {
+                    found.squares[channel] += residual * residual;
+                    (losses[channel].loss(residual), variance)
+                }
+                Some(beyond) => {
+                    let told = beyond.of(&replayer.shown(seen, channel), residual, variance);
+                    if late.is_in_time(channel) {
+                        beyond.learn(&told, &mut seen.motion.tangents, Some(&row));
+                    }
+                    found.squares[channel] += told.value.powi(2) * variance / told.variance;
+                    (told.loss(), told.variance)
+                }
+            };
+            found.cost += loss.cost;
             found.slopes += loss.slope * loss.slope * variance;
             found.curvatures += loss.curvature * variance;
             let root = loss.curvature.sqrt();

@@ -53,6 +53,34 @@ impl<const D: usize> Tangents<D> {
         }
     }
 
+    /// Takes `K·row` off, where a filter's gain K moves the state by what a reading shows beyond its prediction: `row` has the
+    /// derivatives of that prediction by the unknowns.
+    pub(super) fn corrected(&mut self, gain: &[f64; D], row: &[f64]) {
+        for (pack, row) in self.packs.iter_mut().zip(row.as_chunks::<LANES>().0) {
+            for (lanes, gain) in pack.iter_mut().zip(gain) {
+                for (own, shown) in lanes.iter_mut().zip(row) {
+                    *own -= gain * shown;
+                }
+            }
+        }
+    }
+
+    /// The derivatives by unit changes of the state, row by row, which begin anew; they are the unknowns from `first` on.
+    pub(super) fn take_units(&mut self, first: usize) -> [[f64; D]; D] {
+        let found = std::array::from_fn(|i| std::array::from_fn(|j| *self.entry(i, first + j)));
+        self.set_units(first);
+        found
+    }
+
+    /// Unit changes of the state as unknowns from `first` on.
+    pub(super) fn set_units(&mut self, first: usize) {
+        for i in 0..D {
+            for j in 0..D {
+                *self.entry(i, first + j) = f64::from(u8::from(i == j));
+            }
+        }
+    }
+
     /// Multiplies the derivatives of one state.
     pub(super) fn scale(&mut self, state: usize, factor: f64) {
         for pack in &mut self.packs {

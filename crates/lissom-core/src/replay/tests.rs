@@ -188,6 +188,7 @@ fn derivatives_of(
         noise: &[SensorNoise::gaussian(1.0); 3],
         blocks: &[Blocks { samples: 1.0, period: None }],
         masks: &[vec![None; 3]],
+        command_noise: 0.0,
     };
     let base = predict(model, &campaign, &window).unwrap();
     // With blocks of one sample and residuals put in one channel at a time, scores are derivatives.

@@ -26,6 +26,8 @@ pub(super) struct Replayer<'a, const D: usize> {
     channels: &'a Channels,
     parameters: &'a [Parameter],
     arm: &'a ModalArm,
+    /// Whether tangents of unit changes of the state follow those of the unknowns.
+    with_units: bool,
     sample_time_s: f64,
     /// Whole samples and the share of one by which the command acts later.
     lag_samples: isize,
@@ -38,11 +40,16 @@ pub(super) struct Replayer<'a, const D: usize> {
 /// What is seen at one sample.
 pub(super) struct Seen<'m, const D: usize> {
     pub(super) sample: usize,
-    pub(super) motion: &'m ReplayedMotion<D>,
+    pub(super) motion: &'m mut ReplayedMotion<D>,
     /// Torque that acts just before the sample, that of position taken off \[N·m\].
     pub(super) torque: f64,
     /// Sine and cosine of the logged angle, where gravity acts.
     pub(super) waves: Option<[f64; 2]>,
+}
+
+/// The first place behind a row of `unknowns` and one number more, which is a whole number of [`LANES`].
+fn units(unknowns: usize) -> usize {
+    (unknowns + 1).next_multiple_of(LANES)
 }
 
 impl<'a, const D: usize> Replayer<'a, D> {
@@ -51,12 +58,15 @@ impl<'a, const D: usize> Replayer<'a, D> {
         parameters: &'a [Parameter],
         channels: &'a Channels,
         sample_time_s: f64,
+        with_units: bool,
     ) -> Self {
         let phases = Phases::new(arm, parameters);
         let friction = Friction::new(arm);
         let rubs = |p: &Parameter| p.enters(arm) == Enters::Friction;
         let own = |k: usize| (k, parameters.get(k).copied().filter(rubs));
-        let mut by = (0..parameters.len() + D).map(own).collect::<Vec<_>>();
+        let unknowns = parameters.len() + D + channels.tips.len();
+        let units = if with_units { units(unknowns)..units(unknowns) + D } else { 0..0 };
+        let mut by = (0..unknowns).chain(units).map(own).collect::<Vec<_>>();
         if friction.terms.is_empty() {
             by.retain(|(_, own)| own.is_some());
         }
@@ -84,6 +94,7 @@ impl<'a, const D: usize> Replayer<'a, D> {
             channels,
             parameters,
             arm,
+            with_units,
             sample_time_s,
             lag_samples: lag_samples as isize,
             lag_share,
@@ -105,12 +116,20 @@ impl<'a, const D: usize> Replayer<'a, D> {
         range: RangeInclusive<usize>,
         start: [f64; D],
         with_tangents: bool,
-        mut see: impl FnMut(&Seen<'_, D>),
+        mut see: impl FnMut(&mut Seen<'_, D>),
     ) -> ReplayedMotion<D> {
         let shared = self.parameters.len();
-        let mut tangents = Tangents::new(if with_tangents { shared + D } else { 0 });
+        let (unknowns, units) = (self.unknowns(), self.units());
+        let mut tangents = Tangents::new(match (with_tangents, self.with_units) {
+            (_, true) => units + D,
+            (true, false) => unknowns,
+            (false, false) => 0,
+        });
         if with_tangents {
-            (0..D).for_each(|i| *tangents.entry(i, shared + i) = 1.0);
+            tangents.set_units(shared);
+        }
+        if self.with_units {
+            tangents.set_units(units);
         }
         let mode = Mode::of(start[1]);
         let friction_impulse = (!with_tangents).then_some(0.0);
@@ -120,7 +139,7 @@ impl<'a, const D: usize> Replayer<'a, D> {
         for sample in first..=last {
             let waves = self.waves(run, sample);
             let torque = self.before(run, sample) - self.load(run, sample, waves);
-            see(&Seen { sample, motion: &motion, torque, waves });
+            see(&mut Seen { sample, motion: &mut motion, torque, waves });
             if sample < last {
                 self.sample(run, sample, &mut motion);
             }
@@ -204,10 +223,15 @@ impl<'a, const D: usize> Replayer<'a, D> {
         self.parameters.len() + D + self.channels.tips.len()
     }
 
+    /// The first of the unit changes of the state among the tangents, where they follow: behind a [`Self::row`].
+    pub(super) fn units(&self) -> usize {
+        units(self.unknowns())
+    }
+
     /// A row for the derivatives of an output: the unknowns', one number more, and as many beyond as
     /// make it a whole number of [`LANES`].
     pub(super) fn row(&self) -> Vec<f64> {
-        vec![0.0; (self.unknowns() + 1).next_multiple_of(LANES)]
+        vec![0.0; self.units()]
     }
 
     /// The arm that is replayed.
@@ -252,9 +276,9 @@ impl<'a, const D: usize> Replayer<'a, D> {
         let Some(row) = row else { return value };
         let own = self.parameters.len() + D;
         seen.motion.tangents.seen(&c, row);
-        row[own..self.unknowns()].fill(0.0);
+        row[self.unknowns()..].fill(0.0);
         if channel > 0 {
-            row[own + channel - 1] = 1.0;
+            row[own + channel - 1] += 1.0;
             self.direct(seen, channel - 1, row);
         }
         value
@@ -268,7 +292,7 @@ impl<'a, const D: usize> Replayer<'a, D> {
         (1..D).step_by(2).for_each(|i| c[i] = angles[i - 1]);
         if let Some(row) = row {
             seen.motion.tangents.seen(&c, row);
-            row[self.parameters.len() + D..self.unknowns()].fill(0.0);
+            row[self.unknowns()..].fill(0.0);
             self.by_shapes(tip, row, |j| x[3 + 2 * j] - x[1]);
         }
         c.iter().zip(x).map(|(a, b)| a * b).sum()
@@ -284,6 +308,14 @@ impl<'a, const D: usize> Replayer<'a, D> {
                 }
                 _ => {}
             }
+        }
+    }
+
+    /// What channel `channel` shows, as a row on the state.
+    pub(super) fn shown(&self, seen: &Seen<'_, D>, channel: usize) -> [f64; D] {
+        match channel.checked_sub(1) {
+            None => std::array::from_fn(|i| f64::from(u8::from(i == 0))),
+            Some(tip) => self.tip(seen, tip).0,
         }
     }
 

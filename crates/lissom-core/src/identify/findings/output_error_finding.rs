@@ -37,12 +37,8 @@ pub enum OutputErrorFinding {
         /// Its probable cause.
         cause: LagCause,
     },
-    /// Noise of the command prevents the simulation of whole runs.
-    CommandNoise {
-        /// Motion of the angle due to this noise, relative to the noise of the angle's sensor; `None` if instead most
-        /// of the residual torque is this noise.
-        ratio: Option<f64>,
-    },
+    /// Noise of the command disturbs a simulation of the runs.
+    CommandNoise,
     /// A tip is read at another time than the motor.
     TipLag {
         /// Name of the tip.
@@ -181,15 +177,9 @@ impl fmt::Display for OutputErrorFinding {
                     later(lag_s.value)
                 )
             }
-            Self::CommandNoise { ratio: None } => f.write_str(
-                "the measured command is too noisy to simulate whole runs from it: most of the residual torque is noise of \
-                 the command. The estimates do not come from simulations of whole runs",
-            ),
-            Self::CommandNoise { ratio: Some(ratio) } => write!(
-                f,
-                "the measured command is too noisy to simulate the motion from it (integrated to an angle, its noise is {} \
-                 times that of the angle's sensor): the output-error method is not used",
-                significant(*ratio, 2)
+            Self::CommandNoise => f.write_str(
+                "most of the residual torque is noise of the measured command, which would move a simulated arm: the \
+                 estimates do not come from simulations of whole runs",
             ),
             Self::TipLag { tip, lag_s } => write!(
                 f,
@@ -272,7 +262,7 @@ impl Describe for OutputErrorFinding {
             Self::DampingKind { parameters } if !parameters.is_empty() => Severity::Warning,
             Self::DampingKind { .. }
             | Self::CommandLag { cause: LagCause::Delay, .. }
-            | Self::CommandNoise { .. }
+            | Self::CommandNoise
             | Self::TipLag { .. }
             | Self::ModesByTheMotor { .. }
             | Self::MotionsPart { .. } => Severity::Info,
@@ -288,7 +278,7 @@ impl Describe for OutputErrorFinding {
 
     fn affects(&self) -> Vec<&'static str> {
         match self {
-            Self::CommandNoise { .. } => vec![],
+            Self::CommandNoise => vec![],
             Self::CommandLag { cause: LagCause::Delay, .. } => {
                 vec![key::INERTIA, key::VISCOUS, key::RAW_RESPONSE]
             }
@@ -319,7 +309,7 @@ impl Describe for OutputErrorFinding {
 
     fn hint(&self) -> &'static str {
         match self {
-            Self::CommandNoise { .. } => {
+            Self::CommandNoise => {
                 "nothing to do: noise of the command does not disturb the regression, which gives the estimates"
             }
             Self::CommandLag { cause: LagCause::LooksHeld, .. } => {

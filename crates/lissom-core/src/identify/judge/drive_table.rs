@@ -274,7 +274,6 @@ mod tests {
             constant_velocity: None,
             beam_regression: None,
             output_error: None,
-            command_noise: None,
             beam_model: None,
             motor_model: None,
         }

@@ -30,8 +30,6 @@ pub(crate) struct Methods {
     pub(crate) constant_velocity: Option<ConstantVelocity>,
     pub(crate) beam_regression: Option<BeamRegression>,
     pub(crate) output_error: Option<OutputError>,
-    /// How far the noise of the command moves the angle, where the runs are not replayed for it.
-    pub(crate) command_noise: Option<f64>,
     /// Rational model of the beam from its tips' responses.
     pub(crate) beam_model: Option<BeamFit>,
     /// Rational model of the motor from its corrected response.

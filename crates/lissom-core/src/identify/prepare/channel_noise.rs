@@ -56,7 +56,7 @@ pub(crate) fn independent_noise(x: &[f64]) -> f64 {
 }
 
 /// Standard error of normal numbers whose sizes these are, from the smaller ones.
-fn spread(sizes: &mut [f64]) -> f64 {
+pub(crate) fn spread(sizes: &mut [f64]) -> f64 {
     let count = ((KEPT * sizes.len() as f64) as usize).max(1);
     let (below, last, _) = sizes.select_nth_unstable_by(count - 1, f64::total_cmp);
     let square: f64 = below.iter().chain([&*last]).map(|x| x * x).sum();

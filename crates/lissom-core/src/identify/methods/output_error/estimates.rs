@@ -5,11 +5,12 @@ use crate::identify::drive_estimates::DriveEstimates;
 use crate::identify::estimate::{Estimate, ModeEstimate};
 use crate::identify::friction_estimates::{Friction, LawEstimates};
 use crate::identify::gravity_estimate::Gravity;
-use crate::identify::methods::friction_law::{FrictionLaw, LawTerm, Motion, Unused};
+use crate::identify::methods::friction_law::{FrictionLaw, LawFit, LawTerm, Motion, Unused};
 use crate::identify::methods::output_error::found::OutputError;
 use crate::identify::methods::output_error::model::describes::{
     accepted_residual, is_left, is_sound,
 };
+use crate::identify::methods::output_error::thresholds::KNOWS_MORE;
 use crate::record::{Channels, TipQuantity};
 use crate::replay::{DryTerms, FrictionNumber, ModalArm, Parameter};
 
@@ -172,6 +173,7 @@ impl OutputError {
         self.beyond_noise < self.accepted_residual
             && is_sound(&self.arm, &self.covariance)
             && self.sees_modes
+            && (self.command_noise == 0.0 || !is_left(&self.left_over))
     }
 
     /// The same beside the regression: over short windows more is accepted where its equation lacks a term, and nothing where
@@ -186,6 +188,19 @@ impl OutputError {
         Self { accepted_residual, ..self }
     }
 
+    /// Whether the standard errors of inertia, viscous and Coulomb friction are clearly less than those of slip phases, in the
+    /// geometric mean. Noise of the command disturbs a replay, but no equation of torques that has it on its right side.
+    fn knows_more(&self, law: &FrictionLaw) -> bool {
+        let LawFit { inertia, viscous, coulomb, .. } = &law.chosen;
+        let own = [Parameter::Inertia, Parameter::Viscous, Parameter::Coulomb];
+        let ratio = |(own, other): (Parameter, &Option<Estimate>)| -> f64 {
+            let own = self.estimate(own).map_or(f64::INFINITY, |e| e.std);
+            other.map_or(f64::NEG_INFINITY, |other| (own / other.std).ln())
+        };
+        let ratios = own.into_iter().zip([inertia, viscous, coulomb]).map(ratio);
+        ratios.sum::<f64>() < -3.0 * KNOWS_MORE.ln()
+    }
+
     /// The same beside slip phases: an arm that predicts their torque worse than the line, or than a law of friction, is not
     /// accepted. A lag alone is no reason: the replay has its own.
     #[must_use]
@@ -195,7 +210,9 @@ impl OutputError {
         };
         let lawful = law.filter(of_friction).map(|law| &law.unused);
         let is_worse = unused.as_ref().is_some_and(|unused| unused.is_worse(lawful));
-        let accepted_residual = if is_worse { 0.0 } else { self.accepted_residual };
+        let disturbed = self.command_noise > 0.0 && self.arm.modes.is_empty();
+        let knows_less = disturbed && law.is_some_and(|law| !self.knows_more(law));
+        let accepted_residual = if is_worse || knows_less { 0.0 } else { self.accepted_residual };
         Self { accepted_residual, unused, ..self }
     }
 }

@@ -25,7 +25,7 @@ pub(crate) fn follow(
 ) -> Vec<Window> {
     let masks = data::masks(campaign);
     let noise: Vec<SensorNoise> = noise::of_samples(campaign).into_iter().map(weighable).collect();
-    let sampling = Sampling { noise: &noise, blocks: &[], masks: &masks };
+    let sampling = Sampling { noise: &noise, blocks: &[], masks: &masks, command_noise: 0.0 };
     // No limit is needed: each window has few unknowns and few steps.
     let budget = Budget::new(u64::MAX, Interrupt::default());
     let problem = ReplayProblem {

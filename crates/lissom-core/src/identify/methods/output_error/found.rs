@@ -70,6 +70,8 @@ pub struct OutputError {
     pub(crate) sees_modes: bool,
     /// Share of each channel's squared residual, motor first, that is slower than its sensor's noise.
     pub left_over: Vec<f64>,
+    /// Noise of a measured command that is counted, as acceleration of the motor \[rad/s² or m/s²\]; zero if there is none.
+    pub command_noise: f64,
     /// What the arm and the line leave of the torque in slip phases; `None` of an arm with modes or tips.
     pub(crate) unused: Option<Unused>,
 }

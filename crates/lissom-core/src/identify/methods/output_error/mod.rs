@@ -14,7 +14,6 @@ mod schedule;
 pub(crate) mod thresholds;
 mod undecided;
 
-pub(crate) use command_noise::command_noise;
 pub use engine::by_run::ByRun;
 pub(crate) use engine::data::{Masks, masks};
 pub use engine::search::{Iteration, Stop};

@@ -21,10 +21,7 @@ use crate::replay::{ModalArm, Oscillator, Parameter};
 pub(crate) fn findings(evidence: &Evidence<'_>) -> Vec<Finding> {
     let campaign = evidence.campaign;
     let Some(oe) = &evidence.methods.output_error else {
-        let noise = evidence.methods.command_noise.map(Some);
-        let noise = noise.or_else(|| command_is_noise(evidence).then_some(None));
-        let finding = |ratio| Finding::new(OutputErrorFinding::CommandNoise { ratio });
-        return noise.map(finding).into_iter().collect();
+        return Vec::new();
     };
     let mut findings = Vec::new();
     if oe.stands() {
@@ -83,7 +80,7 @@ fn departs(evidence: &Evidence<'_>, oe: &OutputError) -> Option<Finding> {
     }
     // Noise of the command moves the arm; of friction that varies the regression's finding tells.
     if command_is_noise(evidence) {
-        return Some(Finding::new(OutputErrorFinding::CommandNoise { ratio: None }));
+        return Some(Finding::new(OutputErrorFinding::CommandNoise));
     }
     let regression = evidence.methods.regression.as_ref();
     let varies = regression.is_some_and(|r| r.varies_by().is_some()) && !lawful(evidence);

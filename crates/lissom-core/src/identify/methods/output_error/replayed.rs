@@ -1,6 +1,7 @@
 //! The output-error method: it simulates the arm under the logged command, and changes the arm's parameters until the
 //! simulated motion is the logged one.
 
+use crate::identify::methods::output_error::command_noise;
 use crate::identify::methods::output_error::engine::budget::Budget;
 use crate::identify::methods::output_error::engine::{data, noise};
 use crate::identify::methods::output_error::found::{OutputError, OutputErrorStart, SearchEnd};
@@ -31,6 +32,7 @@ pub fn output_error(prepared: &Prepared<'_>, start: &OutputErrorStart) -> Option
     let masks = data::masks(campaign);
     let blocks = data::blocks(campaign, &start.omega_rad_s);
     let noise = noise::of_samples(campaign);
+    let inertia = start.arms.first()?.inertia_kg_m2;
     let most = start.most_evaluations;
     let budget = Budget::new(most, start.interrupt.clone());
     let fitting = Fitting {
@@ -39,6 +41,7 @@ pub fn output_error(prepared: &Prepared<'_>, start: &OutputErrorStart) -> Option
         blocks: &blocks,
         further_terms: &start.further_terms,
         noise: &noise,
+        command_noise_most: command_noise::most(campaign, inertia),
         budget: &budget,
         widening: WINDOW_WIDENING,
     };
@@ -70,6 +73,7 @@ pub fn output_error(prepared: &Prepared<'_>, start: &OutputErrorStart) -> Option
         accepted_residual: accepted_residual(fit.whole_runs),
         sees_modes,
         left_over: left,
+        command_noise: fit.command_noise,
         unused: None,
         stages: report.stages,
         extensions: report.added,

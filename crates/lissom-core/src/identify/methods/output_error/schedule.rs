@@ -151,6 +151,12 @@ fn make(step: Move, fitting: &Fitting<'_>, fit: &mut ArmFit, report: &mut Report
 /// Lengthens the windows to whole runs, as far as the arm describes them and neighbouring motions do not grow apart.
 /// Parameters are added if the residual grows.
 fn widen(fitting: &Fitting<'_>, fit: &mut ArmFit, report: &mut Report) {
+    if fit.command_noise > 0.0 {
+        if !fit.whole_runs {
+            fitting.take_all(fit, report);
+        }
+        return;
+    }
     let longest = fitting.longest_s();
     let mut factor = fitting.widening;
     while !fit.whole_runs && !fitting.budget.is_spent() {

@@ -5,9 +5,13 @@
 
 thresholds! {
     "output error: acceptance" {
-        /// The runs are not simulated if the noise of a measured command moves the angle by this
-        /// many times the noise of its sensor: it would be taken for motion.
-        COMMAND_NOISE_MOST: f64 = 1.0, "1", Convention;
+        /// Noise of a measured command is counted if the likelihood with it is larger by this, as a
+        /// fall of −2·ln: four standard errors.
+        COMMAND_NOISE_TOLD: f64 = 16.0, "1", Convention;
+        /// Where noise of the command is counted, a rigid axis is replayed if its standard errors are so
+        /// many times smaller than those of slip phases, in the geometric mean: an equation of torques
+        /// has this noise on its right side, where it biases nothing.
+        KNOWS_MORE: f64 = 1.5, "1", Convention;
         /// Largest ratio of a channel's residual to its sensor's noise up to which an arm that is
         /// simulated over whole runs is accepted. On short windows, a search with a larger ratio is
         /// given up; this changed no accepted estimate of 30 study campaigns and of the measured

@@ -157,7 +157,7 @@ impl ReplayProblem<'_> {
                     self.budget.count(samples_of(&windows), 0);
                     let costs = costs(&body.arm, self.campaign, &windows, self.sampling);
                     let samples = point.sums.iter().map(|s| s.samples);
-                    costs.iter().zip(samples).map(|(c, n)| robust(*c, n, usual)).sum()
+                    costs.iter().zip(samples).map(|(c, n)| robust(c.cost, n, usual)).sum()
                 }
                 None => f64::INFINITY,
             };

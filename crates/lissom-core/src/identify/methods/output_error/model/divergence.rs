@@ -43,7 +43,7 @@ impl Fitting<'_> {
         let noise = fit.noise.iter().zip(&counts);
         let noise: Vec<SensorNoise> =
             noise.map(|(own, counts)| if *counts { *own } else { weightless }).collect();
-        let problem = self.problem(&fit.free, &noise, true);
+        let problem = self.problem(&fit.free, (&noise, 0.0), true);
         let point = problem.at(fit.body.clone(), fit.windows.clone());
         let first_angle = fit.coordinates();
         let of_window = |sums: &WindowSums| {

@@ -16,6 +16,8 @@ pub(crate) struct ArmFit {
     pub(crate) free: Vec<Parameter>,
     /// Assumed noise of each channel.
     pub(crate) noise: Vec<SensorNoise>,
+    /// Assumed noise of a measured command, as acceleration of the motor \[rad/s² or m/s²\].
+    pub(crate) command_noise: f64,
     /// Standard deviation of each channel's residual, corrected for the number of unknowns.
     pub(crate) residual: Vec<f64>,
     /// Whether windows are whole runs, or all windows of the longest length over which motions do not grow apart.
@@ -24,6 +26,11 @@ pub(crate) struct ArmFit {
 }
 
 impl ArmFit {
+    /// Noise of the channels and of the command.
+    pub(crate) fn assumed_noise(&self) -> (&[SensorNoise], f64) {
+        (&self.noise, self.command_noise)
+    }
+
     /// Number of coordinates that a search changes.
     pub(crate) fn coordinates(&self) -> usize {
         self.body.coordinates(&self.free).len()

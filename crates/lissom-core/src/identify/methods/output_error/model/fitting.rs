@@ -36,6 +36,8 @@ pub(crate) struct Fitting<'a> {
     pub(crate) further_terms: &'a [LawTerm],
     /// Noise of each channel, estimated from its samples alone.
     pub(crate) noise: &'a [SensorNoise],
+    /// Acceleration of the motor that noise of a measured command makes at most \[rad/s² or m/s²\].
+    pub(crate) command_noise_most: f64,
     /// Limit of evaluations of the whole search.
     pub(crate) budget: &'a Budget,
     /// Factor by which each stage's windows are longer than the ones before.
@@ -46,10 +48,10 @@ impl Fitting<'_> {
     pub(crate) fn problem<'b>(
         &'b self,
         free: &'b [Parameter],
-        noise: &'b [SensorNoise],
+        (noise, command_noise): (&'b [SensorNoise], f64),
         whole_runs: bool,
     ) -> ReplayProblem<'b> {
-        let sampling = Sampling { noise, blocks: &[], masks: self.masks };
+        let sampling = Sampling { noise, blocks: &[], masks: self.masks, command_noise };
         let robust = !whole_runs;
         let near_enough = if robust { STEP_SHARE_LEAST } else { 0.0 };
         let promise = STAGE_STEP_FALL;
@@ -76,7 +78,7 @@ impl Fitting<'_> {
 
     /// Replays a fit with derivatives by the parameters `free`, and with sums by blocks.
     pub(crate) fn point(&self, fit: &ArmFit, free: &[Parameter]) -> SearchPoint {
-        let mut problem = self.problem(free, &fit.noise, true);
+        let mut problem = self.problem(free, fit.assumed_noise(), true);
         problem.sampling.blocks = self.blocks;
         problem.at(fit.body.clone(), fit.windows.clone())
     }
@@ -86,12 +88,12 @@ impl Fitting<'_> {
         fit.covariances(&self.point(fit, &fit.free).sums)
     }
 
-    /// Cost of a fit for the noise `noise`.
-    pub(crate) fn cost(&self, fit: &ArmFit, noise: &[SensorNoise]) -> f64 {
+    /// Cost of a fit for this noise, and by how much noise of the command widens that of the sensors.
+    pub(crate) fn costs(&self, fit: &ArmFit, sampling: Sampling<'_>) -> [f64; 2] {
         let samples: usize = fit.windows.iter().map(Window::len).sum();
         self.budget.count(samples, 0);
-        let sampling = Sampling { noise, blocks: &[], masks: self.masks };
-        costs(&fit.body.arm, self.campaign, &fit.windows, sampling).iter().sum()
+        let found = costs(&fit.body.arm, self.campaign, &fit.windows, sampling);
+        found.iter().fold([0.0; 2], |[cost, widened], w| [cost + w.cost, widened + w.widened])
     }
 
     /// Whether `other` is better than `fit`: the one rule by which a change of the model is accepted.
@@ -103,7 +105,10 @@ impl Fitting<'_> {
     /// must also explain a good part of that excess ([`EXCESS_LEFT`]): any parameter takes some of the error of an arm
     /// that lacks something else.
     pub(crate) fn is_better(&self, other: &ArmFit, fit: &ArmFit) -> bool {
-        let (before, after) = (self.cost(fit, &fit.noise), self.cost(other, &fit.noise));
+        let (noise, command_noise) = fit.assumed_noise();
+        let sampling = Sampling { noise, blocks: &[], masks: self.masks, command_noise };
+        let cost = |fit: &ArmFit| self.costs(fit, sampling)[0];
+        let (before, after) = (cost(fit), cost(other));
         let more = other.coordinates() as f64 - fit.coordinates() as f64;
         let cheaper =
             after + (PRESENT * PRESENT).max(PARAMETER_SHARE_LEAST * before) * more < before;
@@ -138,6 +143,7 @@ impl Fitting<'_> {
             windows,
             free,
             noise: self.noise.to_vec(),
+            command_noise: 0.0,
             residual: Vec::new(),
             whole_runs: window_s >= longest,
             window_s,
@@ -167,10 +173,14 @@ impl Fitting<'_> {
             }
             let noise = self.noise_of(fit);
             let before = std::mem::replace(&mut fit.noise, noise);
+            let command_noise = self.likely_command_noise(fit);
+            let told = std::mem::replace(&mut fit.command_noise, command_noise);
+            let settled =
+                command_noise <= told / NOISE_SETTLED && told <= command_noise / NOISE_SETTLED;
             let same = |(a, b): (&SensorNoise, &SensorNoise)| {
                 b.deviation() > NOISE_SETTLED * a.deviation()
             };
-            if before.iter().zip(&fit.noise).all(same) || !to_the_end {
+            if settled && (before.iter().zip(&fit.noise).all(same) || !to_the_end) {
                 break;
             }
         }
@@ -200,8 +210,11 @@ impl Fitting<'_> {
         promise: f64,
         from: Option<SearchPoint>,
     ) -> (SearchPoint, Stop) {
-        let mut problem =
-            ReplayProblem { promise, ..self.problem(&fit.free, &fit.noise, fit.whole_runs) };
+        let (noise, command_noise) = (fit.noise.clone(), fit.command_noise);
+        let mut problem = ReplayProblem {
+            promise,
+            ..self.problem(&fit.free, (&noise, command_noise), fit.whole_runs)
+        };
         if self.beyond_noise(fit) > RESIDUAL_FAR_ABOVE_NOISE {
             problem.near_enough = STEP_SHARE_LEAST;
         }
@@ -231,7 +244,7 @@ impl Fitting<'_> {
         let samples: usize = fit.windows.iter().map(Window::len).sum();
         let every = samples.div_ceil(PROBE_SAMPLES).min(fit.windows.len()).max(1);
         let windows = fit.windows.iter().step_by(every).cloned().collect();
-        let mut problem = self.problem(&fit.free, &fit.noise, fit.whole_runs);
+        let mut problem = self.problem(&fit.free, fit.assumed_noise(), fit.whole_runs);
         problem.near_enough = STEP_SHARE_LEAST;
         let (point, ..) = problem.search(problem.at(fit.body.clone(), windows), steps);
         Some((point.sums.iter().map(|s| s.cost).sum(), point.body))
@@ -249,6 +262,9 @@ impl Fitting<'_> {
     /// already, because the cost is flat within a step. Returns the samples that are used if readings that only
     /// repeat a step are left out.
     pub(crate) fn count_steps(&self, fit: &mut ArmFit, report: &mut Report) -> Option<Vec<Masks>> {
+        if fit.command_noise > 0.0 {
+            return None;
+        }
         let steps = noise::steps(self.campaign);
         let predicted: Vec<Option<Prediction>> = fit
             .windows

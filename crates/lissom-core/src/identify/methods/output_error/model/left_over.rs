@@ -10,13 +10,13 @@ use crate::identify::methods::output_error::model::fit::ArmFit;
 use crate::identify::prepare::channel_noise::reading;
 use crate::identify::thresholds::CLEARLY_PRESENT;
 use crate::record::{Campaign, Run};
-use crate::replay::{SensorNoise, Window, predict};
+use crate::replay::{Sampling, SensorNoise, Window, innovations, predict};
 
 /// Numbers of samples over which means are taken: noise averages out, and motion that the arm lacks is slower.
 const AVERAGED: [usize; 3] = [4, 16, 64];
 
 /// Share of each channel's squared residual, motor first, that is slower than its sensor's noise and larger than
-/// chance explains; zero if there is none.
+/// chance explains; zero if there is none. Where noise of the command moves the replay, it is that of the innovations.
 ///
 /// A sensor's steps also make slow errors if the motion is slow. So the means of 4, 16 and 64 residuals are compared
 /// with those that the same sensor would leave of the replayed motion itself, with its noise and without.
@@ -24,12 +24,12 @@ pub(crate) fn left_over(campaign: &Campaign, fit: &ArmFit, masks: &[Masks]) -> V
     let of_windows: Vec<Vec<Slow>> = fit
         .windows
         .par_iter()
-        .filter_map(|window| of_window(campaign, fit, window, &masks[window.run]))
+        .filter_map(|window| of_window(campaign, fit, window, masks))
         .collect();
     (0..fit.noise.len())
         .map(|channel| {
             let add = |sum: Slow, of: &Vec<Slow>| sum.and(&of[channel]);
-            of_windows.iter().fold(Slow::default(), add).share()
+            of_windows.iter().fold(Slow::default(), add).share(fit.command_noise > 0.0)
         })
         .collect()
 }
@@ -53,10 +53,12 @@ impl Slow {
         self
     }
 
-    fn share(&self) -> f64 {
+    /// Innovations are white, `are_white`, whatever part of them is noise of the command.
+    fn share(&self, are_white: bool) -> f64 {
         let of = |(samples, [left, noisy, plain]): (&usize, &[f64; 3])| {
+            let white = if are_white { self.squares / *samples as f64 } else { 0.0 };
             let chance = CLEARLY_PRESENT * 2.0 / (*samples as f64 * self.readings as f64).sqrt();
-            (left - noisy.max(*plain)) / self.squares - chance
+            (left - noisy.max(*plain).max(white)) / self.squares - chance
         };
         AVERAGED.iter().zip(&self.means).map(of).fold(0.0, f64::max)
     }
@@ -66,15 +68,15 @@ fn of_window(
     campaign: &Campaign,
     fit: &ArmFit,
     window: &Window,
-    masks: &Masks,
+    all_masks: &[Masks],
 ) -> Option<Vec<Slow>> {
+    let masks = &all_masks[window.run];
     let predicted = predict(&fit.body.arm, campaign, window)?;
     let run = &campaign.runs[window.run];
     let (first, seed) = (*window.samples.start(), window.run as u64);
     let channels = predicted.channels.iter().zip(&fit.noise).enumerate();
-    let of_channel = |(channel, (predicted, noise)): (usize, (&Vec<f64>, &SensorNoise))| {
+    let errors_of = |(channel, (predicted, noise)): (usize, (&Vec<f64>, &SensorNoise))| {
         let logged = &channel_of(run, channel)[window.samples.clone()];
-        let counts = |k: usize| masks[channel].as_ref().is_none_or(|mask| mask[first + k]);
         let mut source = Xoshiro256PlusPlus::seed_from_u64(seed << 8 | channel as u64);
         let errors = |k: usize| {
             let normal: f64 = StandardNormal.sample(&mut source);
@@ -83,9 +85,36 @@ fn of_window(
             };
             [logged[k] - predicted[k], shown(noise.sigma * normal), shown(0.0)]
         };
-        slow(&(0..logged.len()).map(errors).collect::<Vec<_>>(), counts)
+        (0..logged.len()).map(errors).collect::<Vec<_>>()
     };
-    Some(channels.map(of_channel).collect())
+    let mut errors: Vec<Vec<[f64; 3]>> = channels.map(errors_of).collect();
+    if fit.command_noise > 0.0 {
+        innovate(campaign, fit, window, all_masks, &mut errors);
+    }
+    let counts = |channel: usize, k: usize| masks[channel].as_ref().is_none_or(|m| m[first + k]);
+    Some(errors.iter().enumerate().map(|(c, errors)| slow(errors, |k| counts(c, k))).collect())
+}
+
+/// Residuals, and those by errors of the sensors, as innovations.
+fn innovate(
+    campaign: &Campaign,
+    fit: &ArmFit,
+    window: &Window,
+    masks: &[Masks],
+    errors: &mut [Vec<[f64; 3]>],
+) {
+    let (noise, command_noise) = fit.assumed_noise();
+    let sampling = Sampling { noise, blocks: &[], masks, command_noise };
+    let one = |which: usize| {
+        errors.iter().map(|channel| channel.iter().map(|e| e[which]).collect()).collect()
+    };
+    let series: Vec<Vec<Vec<f64>>> = (0..3).map(one).collect();
+    let found = innovations(&fit.body.arm, campaign, window, sampling, &series);
+    for (which, channels) in found.iter().enumerate() {
+        for (errors, values) in errors.iter_mut().zip(channels) {
+            errors.iter_mut().zip(values).for_each(|(e, value)| e[which] = *value);
+        }
+    }
 }
 
 fn channel_of(run: &Run, channel: usize) -> &[f64] {
