@@ -127,12 +127,11 @@ impl<const D: usize> Innovations<D> {
         let Innovation { value, gain, seen, gain_of_noise, seen_of_noise, .. } = innovation;
         self.last.value += gain_of_noise * value;
         self.last.variance -= gain_of_noise * seen_of_noise;
-        for i in 0..D {
-            self.beyond[i] += gain[i] * value;
-            self.last.beside[i] -= gain[i] * seen_of_noise;
-            for j in 0..D {
-                self.covariance[i][j] -= gain[i] * seen[j];
-            }
+        let own = self.beyond.iter_mut().zip(&mut self.last.beside).zip(&mut self.covariance);
+        for (((beyond, beside), covariance), gain) in own.zip(gain) {
+            *beyond += gain * value;
+            *beside -= gain * seen_of_noise;
+            covariance.iter_mut().zip(seen).for_each(|(p, seen)| *p -= gain * seen);
         }
         if let Some(row) = row {
             tangents.corrected(gain, row);
@@ -147,7 +146,7 @@ fn product<const D: usize>(a: &[[f64; D]; D], x: &[f64; D]) -> [f64; D] {
 
 #[cfg(test)]
 mod tests {
-    use super::super::{ModalArm, Parameter, Sampling, SensorNoise, Window, costs, sums};
+    use super::super::{DryTerms, ModalArm, Parameter, Sampling, SensorNoise, Window, costs, sums};
     use crate::record::{Axis, Campaign, Channels, Command, CommandQuantity, Hold, Run, TimeBase};
     use nalgebra::{DMatrix, DVector};
 
@@ -179,7 +178,7 @@ mod tests {
             modes: vec![],
             shapes: vec![],
             at_points_per_s: vec![],
-            dry_terms: Default::default(),
+            dry_terms: DryTerms::default(),
             gravity: None,
             torque_ripples: vec![],
             command_lag_s: 0.0,
