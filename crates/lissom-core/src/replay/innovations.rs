@@ -1,4 +1,4 @@
-//! What sensors show beyond a prediction from the readings before, where noise of the command moves the replay.
+//! Innovations: readings minus their prediction from the readings before, where noise of the command moves the replay.
 //!
 //! The joint is driven by the torque itself, a replay by its measured value: the noise `n` of the command moves the replayed
 //! motion away from the joint's, as a random walk of its velocity. This is the linear Kalman filter of that difference
@@ -8,9 +8,9 @@
 //! d(k+1) = A·d(k) + b·(n(k) + n(k+1))/2,   y = ŷ + c·d + v,   e = y − ŷ − c·d,   K = P·cᵀ/S,   S = c·P·cᵀ + σ²
 //! ```
 //!
-//! as a measured command is linear from sample to sample, with A from tangents of unit changes of the state, which know events. The innovations e are white with the variance S, and
-//! their derivatives are those of ŷ by the same filter. Unlike a replay's residuals they are not correlated with the command where a
-//! controller closes a loop \[Ljung1999, §8.4\].
+//! A measured command is linear between samples, so noise of both of its ends acts. A is from tangents of unit changes of the
+//! state, which include stops and reversals. The innovations e are white with the variance S. Their derivatives are those of ŷ
+//! after the same filter. A controller does not correlate them with the command, as it does residuals of a replay \[Ljung1999\].
 
 use super::noise::Loss;
 use super::tangents::Tangents;
@@ -28,7 +28,7 @@ pub(super) struct Innovations<const D: usize> {
     units: usize,
 }
 
-/// What is known of the noise of the last command, in standard deviations.
+/// Estimate of the noise of the last command, in standard deviations.
 #[derive(Debug, Clone)]
 struct LastNoise<const D: usize> {
     value: f64,
@@ -39,7 +39,7 @@ struct LastNoise<const D: usize> {
     row: Vec<f64>,
 }
 
-/// What a reading tells.
+/// Innovation of one reading, with the filter's gain.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Innovation<const D: usize> {
     /// e.
@@ -61,7 +61,7 @@ impl<const D: usize> Innovation<D> {
 }
 
 impl<const D: usize> Innovations<D> {
-    /// From a state that is known, with noise of the motor's acceleration that is constant over a sample.
+    /// Filter from a known state; `acceleration` is the standard deviation of the motor's acceleration by the noise of one command.
     pub(super) fn new(acceleration: f64, sample_time_s: f64, units: usize) -> Self {
         let mut push = [0.0; D];
         push[0] = 0.5 * acceleration * sample_time_s.powi(2);
@@ -71,7 +71,7 @@ impl<const D: usize> Innovations<D> {
         Self { beyond: [0.0; D], covariance: [[0.0; D]; D], last, push, units }
     }
 
-    /// To the next sample, over which the tangents moved.
+    /// Time update, after the tangents moved over a sample.
     pub(super) fn advance(&mut self, tangents: &mut Tangents<D>, slips: bool) {
         let a = tangents.take_units(self.units);
         self.beyond = product(&a, &self.beyond);
@@ -100,7 +100,7 @@ impl<const D: usize> Innovations<D> {
         (last.value, last.variance, last.beside) = (0.0, 1.0, half);
     }
 
-    /// Of a reading that shows `c·x` with noise of a `variance`, and lies `residual` above what is replayed.
+    /// Innovation of a reading `c·x` with noise of a `variance`, which is `residual` more than the replay.
     pub(super) fn of(&self, c: &[f64; D], residual: f64, variance: f64) -> Innovation<D> {
         let seen = product(&self.covariance, c);
         let dot = |a: &[f64; D], b: &[f64; D]| a.iter().zip(b).map(|(a, b)| a * b).sum::<f64>();
@@ -117,7 +117,7 @@ impl<const D: usize> Innovations<D> {
         }
     }
 
-    /// Learns from a reading, whose prediction has the derivatives `row`.
+    /// Measurement update by a reading, whose prediction has the derivatives `row`.
     pub(super) fn learn(
         &mut self,
         innovation: &Innovation<D>,

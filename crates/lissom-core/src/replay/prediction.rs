@@ -1,10 +1,8 @@
 //! Prediction of sensor readings under a logged command.
 
-use super::innovations::Innovations;
 use super::late_tips::LateTips;
 use super::modal_arm::{MOST_MODES, ModalArm};
-use super::sums::{Sampling, Window, replayers, start};
-use crate::friction::Mode;
+use super::sums::{Sampling, Window, advance, filter_of, replayers, start};
 use crate::record::Campaign;
 
 /// Predicted readings over one window.
@@ -34,9 +32,9 @@ pub fn predict(arm: &ModalArm, campaign: &Campaign, window: &Window) -> Option<P
     }
 }
 
-/// Series of a window's residuals, each with a value for each channel and sample, as innovations in standard deviations: what
-/// each reading shows beyond a prediction from those before, where noise of the command moves the replay. Readings of late tips,
-/// and those that do not count, stay zero.
+/// Innovations of a window, in standard deviations, for each of some series of residuals (by channel and sample). An innovation is
+/// a reading minus its prediction from the readings before, where noise of the command moves the replay. It is zero for readings of
+/// late tips and for readings that are masked.
 pub fn innovations(
     arm: &ModalArm,
     campaign: &Campaign,
@@ -67,14 +65,11 @@ fn innovations_of<const D: usize>(
     let (first, samples) = (*window.samples.start(), window.len());
     let of = |residuals: &Vec<Vec<f64>>| {
         let mut found = vec![vec![0.0; samples]; residuals.len()];
-        let (noise, units) = (sampling.command_noise, replayer.units());
-        let mut beyond = Innovations::<D>::new(noise, replayer.sample_time_s(), units);
+        let mut filter = filter_of(replayer, sampling);
         let late = LateTips::new(replayer, window.samples.clone(), false);
         replayer.walk(run, window.samples.clone(), start(window), false, |seen| {
-            if seen.sample > first {
-                let slips = seen.motion.mode != Mode::Stick;
-                beyond.advance(&mut seen.motion.tangents, slips);
-            }
+            advance(&mut filter, seen, window);
+            let Some(beyond) = &mut filter else { return };
             for (channel, mask) in sampling.masks[window.run].iter().enumerate() {
                 if !late.is_in_time(channel) || mask.as_ref().is_some_and(|m| !m[seen.sample]) {
                     continue;

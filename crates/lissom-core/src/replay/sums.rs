@@ -173,7 +173,7 @@ fn costs_of<const D: usize>(
         let mut cost = WindowCost::default();
         let replayer = replayer_of(&replayers, run);
         let mut late = LateTips::new(replayer, window.samples.clone(), false);
-        let mut beyond = innovations(replayer, sampling);
+        let mut beyond = filter_of(replayer, sampling);
         replayer.walk(run, window.samples.clone(), start(window), false, |seen| {
             advance(&mut beyond, seen, window);
             for (channel, mask) in sampling.masks[window.run].iter().enumerate() {
@@ -264,7 +264,7 @@ pub(super) fn start<const D: usize>(window: &Window) -> [f64; D] {
 }
 
 /// The filter of a window, if noise of the command moves its replay.
-fn innovations<const D: usize>(
+pub(super) fn filter_of<const D: usize>(
     replayer: &Replayer<'_, D>,
     sampling: Sampling<'_>,
 ) -> Option<Innovations<D>> {
@@ -272,8 +272,8 @@ fn innovations<const D: usize>(
     (noise > 0.0).then(|| Innovations::new(noise, replayer.sample_time_s(), replayer.units()))
 }
 
-/// To the sample that is seen.
-fn advance<const D: usize>(
+/// Moves the filter on to the sample that is seen.
+pub(super) fn advance<const D: usize>(
     beyond: &mut Option<Innovations<D>>,
     seen: &mut Seen<'_, D>,
     window: &Window,
@@ -313,7 +313,7 @@ fn sum_up<const D: usize>(
     let first = *window.samples.start();
     let mut block = None;
     let mut late = LateTips::new(replayer, window.samples.clone(), true);
-    let mut beyond = innovations(replayer, sampling);
+    let mut beyond = filter_of(replayer, sampling);
     replayer.walk(run, window.samples.clone(), start(window), true, |seen| {
         advance(&mut beyond, seen, window);
         let own = blocks.map(|b| b.of(seen.sample, first));

@@ -49,7 +49,7 @@ pub fn find_frequency(samples: &[f64], sample_time_s: f64) -> Option<f64> {
 
 /// Where `f` is least between `low` and `high`, to `tolerance`: Brent's method, parabolas through the last points
 /// within a golden section.
-fn minimum(f: impl Fn(f64) -> f64, mut low: f64, mut high: f64, tolerance: f64) -> f64 {
+pub(crate) fn minimum(f: impl Fn(f64) -> f64, mut low: f64, mut high: f64, tolerance: f64) -> f64 {
     let golden = 0.5 * (3.0 - 5.0_f64.sqrt());
     let start = low + golden * (high - low);
     let same = |a: f64, b: f64| a.total_cmp(&b).is_eq();

@@ -9,5 +9,6 @@ pub(crate) mod thresholds;
 
 pub use broadband::{Band, Bin, Lines, average, broadband, groups, noise_power};
 pub use frequency::find_frequency;
+pub(crate) use frequency::minimum;
 pub use harmonics::{Harmonics, Phasor, hold_factor, least_squares};
 pub use steady::{Steady, SteadyError, steady_state};

@@ -10,10 +10,11 @@ use crate::identify::prepare::channel_noise::{channel_noise, spread};
 use crate::information::inverse;
 use crate::record::{Campaign, Hold, Run};
 use crate::replay::Sampling;
+use crate::spectrum::minimum;
 
-/// Steps of the golden-section search for the logarithm of the noise, to 5 %.
-const GOLDEN_STEPS: usize = 12;
-/// Samples before one that tell of it, samples looked at, least number of them for each coefficient, and fits.
+/// The noise is found to this share of it.
+const FOUND_TO: f64 = 0.05;
+/// Order of the linear prediction of a command, samples used for it, their least number per coefficient, and rounds of the fit.
 const ORDER: usize = 4;
 const SAMPLES: usize = 8192;
 const LEAST_ROWS: usize = 10;
@@ -35,21 +36,22 @@ pub(super) fn most(campaign: &Campaign, inertia_kg_m2: f64) -> f64 {
     each.get(each.len() / 2).map_or(0.0, |torque_nm| torque_nm / inertia_kg_m2.abs())
 }
 
-/// Standard deviation of white noise that moves a motor as much as the noise of a run's command. What a linear control loop answers
-/// to the sensor of the angle is no noise. Rounding to steps errs alike as long as the command stays within one.
+/// Standard deviation of white noise with the same effect on a motor as the noise of a run's command: the part of the command that
+/// a linear control loop on the angle does not explain. The error of rounding to steps is constant while the command stays within
+/// one step, so it counts for as many samples.
 fn noise_of(run: &Run) -> f64 {
     let command = run.command();
     let noise = channel_noise(command);
     let changes = command.windows(2).filter(|pair| pair[0].total_cmp(&pair[1]).is_ne()).count();
     let stays = command.len() as f64 / changes.max(1) as f64;
-    let unanswered = unanswered(command, run.motor()).unwrap_or(f64::INFINITY);
-    noise.independent.min(unanswered).max(noise.step / 12.0_f64.sqrt() * stays.sqrt())
+    let unpredicted = unpredicted(command, run.motor()).unwrap_or(f64::INFINITY);
+    noise.independent.min(unpredicted).max(noise.step / 12.0_f64.sqrt() * stays.sqrt())
 }
 
-/// What the last commands and moves of the angle do not tell of the next command, which is linear in them if a controller makes
-/// it of that angle: its standard deviation, by least squares without the largest. Noise of the command is told by no move, but
-/// that of the last commands adds to it: it is at most twice too large. `None` of a run that is too short.
-fn unanswered(command: &[f64], motor: &[f64]) -> Option<f64> {
+/// Standard deviation of the error of a linear prediction of the command from the last four commands and the last five differences
+/// of the angle, by least squares without the largest fifth of the errors. A controller's answer to the angle is predicted, noise is
+/// not; noise of the last commands adds to the error, which is at most about twice the noise. `None` for a run that is too short.
+fn unpredicted(command: &[f64], motor: &[f64]) -> Option<f64> {
     let apart = command.len().div_ceil(SAMPLES).max(1);
     let rows: Vec<usize> = (ORDER + 1..command.len()).step_by(apart).collect();
     let width = 2 * ORDER + 2;
@@ -82,8 +84,8 @@ fn unanswered(command: &[f64], motor: &[f64]) -> Option<f64> {
 }
 
 impl Fitting<'_> {
-    /// The most likely noise of the command for a fit, beside noise of the sensors that keeps its ratios: at most
-    /// `command_noise_most`, because what is slower is no noise but what the arm lacks. Zero if it is not told from none.
+    /// Maximum-likelihood noise of the command for a fit; the ratios of the sensors' noise are kept. It is at most
+    /// `command_noise_most`: a larger value would be an error of the model. Zero if the likelihood does not require it.
     pub(super) fn likely_command_noise(&self, fit: &ArmFit) -> f64 {
         let most = self.command_noise_most;
         if most <= 0.0 {
@@ -98,21 +100,10 @@ impl Fitting<'_> {
             let scale = cost / readings as f64;
             (readings as f64 * scale.ln() + widened, scale.sqrt())
         };
-        let golden = 0.5 * (5.0_f64.sqrt() - 1.0);
-        let (mut low, mut high) = ((LEAST * most).ln(), (most / LEAST.sqrt()).ln());
-        let at = |log: f64| (unlikely(log.exp()), log);
-        let (mut a, mut b) = (at(high - golden * (high - low)), at(low + golden * (high - low)));
-        for _ in 0..GOLDEN_STEPS {
-            if a.0.0 < b.0.0 {
-                (high, b) = (b.1, a);
-                a = at(high - golden * (high - low));
-            } else {
-                (low, a) = (a.1, b);
-                b = at(low + golden * (high - low));
-            }
-        }
-        let ((found, scale), log) = if a.0.0 < b.0.0 { a } else { b };
+        let (low, high) = ((LEAST * most).ln(), (most / LEAST.sqrt()).ln());
+        let likely = minimum(|log| unlikely(log.exp()).0, low, high, FOUND_TO).exp();
+        let (found, scale) = unlikely(likely);
         let none = unlikely(0.0).0;
-        if none - found < COMMAND_NOISE_TOLD { 0.0 } else { (scale * log.exp()).min(most) }
+        if none - found < COMMAND_NOISE_TOLD { 0.0 } else { (scale * likely).min(most) }
     }
 }
