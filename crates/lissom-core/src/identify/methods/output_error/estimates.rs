@@ -210,7 +210,7 @@ impl OutputError {
         };
         let lawful = law.filter(of_friction).map(|law| &law.unused);
         let is_worse = unused.as_ref().is_some_and(|unused| unused.is_worse(lawful));
-        let disturbed = self.command_noise > 0.0 && self.arm.modes.is_empty();
+        let disturbed = self.command_noise > 0.0 && self.arm.shapes.is_empty();
         let knows_less = disturbed && law.is_some_and(|law| !self.knows_more(law));
         let accepted_residual = if is_worse || knows_less { 0.0 } else { self.accepted_residual };
         Self { accepted_residual, unused, ..self }

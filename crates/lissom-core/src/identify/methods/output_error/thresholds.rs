@@ -8,7 +8,7 @@ thresholds! {
         /// Noise of a measured command is counted if the likelihood with it is larger by this, as a
         /// fall of −2·ln: four standard errors.
         COMMAND_NOISE_TOLD: f64 = 16.0, "1", Convention;
-        /// Where noise of the command is counted, a rigid axis is replayed if its standard errors are so
+        /// Where noise of the command is counted, an axis without tips is replayed if its standard errors are so
         /// many times smaller than those of slip phases, in the geometric mean: an equation of torques
         /// has this noise on its right side, where it biases nothing.
         KNOWS_MORE: f64 = 1.5, "1", Convention;
