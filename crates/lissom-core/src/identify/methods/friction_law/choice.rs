@@ -15,7 +15,7 @@ use crate::identify::methods::friction_law::candidates::{
 use crate::identify::methods::friction_law::law_term::LawTerm;
 use crate::identify::methods::friction_law::prediction::{ByBlock, Divided, Improvement, LeftOut};
 use crate::identify::methods::friction_law::rows::{Cut, Sampled};
-use crate::identify::methods::friction_law::thresholds::TERMS_MOST;
+use crate::identify::methods::friction_law::thresholds::{RIPPLE_OF_ONE_MOTION, TERMS_MOST};
 use crate::identify::methods::regression::Solution;
 use crate::record::Run;
 
@@ -185,7 +185,8 @@ impl<'a> Search<'a> {
         }
     }
 
-    /// What speaks for the terms of some offers together; `None` for several that do not predict better.
+    /// What speaks for the terms of some offers together; `None` for several that do not predict better,
+    /// and for a ripple that the errors of a sensor can be.
     fn judged(&self, offers: Vec<Offer>, before: &LeftOut) -> Option<Judged> {
         let of = |half: Option<usize>| -> Vec<usize> {
             self.with(&offers.iter().map(|o| o.of(half)).collect::<Vec<_>>())
@@ -202,6 +203,16 @@ impl<'a> Search<'a> {
         } else {
             Improvement::between(&before.by_block, &after.by_block, amplitudes)
         };
+        let is_ripple = |offer: &Offer| {
+            let law = offer.all.term.law();
+            matches!(law, Some(LawTerm::Ripple { .. } | LawTerm::TorqueRipple { .. }))
+        };
+        let may_be_of_sensor = improvement.saved < RIPPLE_OF_ONE_MOTION
+            && offers.iter().any(is_ripple)
+            && self.sampled.is_one_motion_repeated();
+        if may_be_of_sensor {
+            return None;
+        }
         let across_kinds = after.is_better_across_kinds(before);
         if offers.len() > 1 && !(improvement.is_sure && across_kinds) {
             return None;

@@ -21,6 +21,11 @@ use crate::record::{Campaign, Run};
 /// Rows looked at, about; windows overlap less in longer logs.
 const MOST_ROWS: usize = 40_000;
 
+/// Ends of slip phases are the same if they differ by at most this share of the travel.
+const SAME_END: f64 = 0.02;
+/// Different slip phases of one motion there and back, with the first and the last, which are not whole.
+const THERE_AND_BACK: usize = 4;
+
 /// Windows of a run whose rows are found one after the other.
 const PART: usize = 1024;
 
@@ -167,6 +172,27 @@ impl<'a> Sampled<'a> {
         let ends = [f64::INFINITY, f64::NEG_INFINITY];
         let widen = |[low, high]: [f64; 2], p: &WindowPlace| [low.min(p.angle), high.max(p.angle)];
         self.places().iter().fold(ends, widen)
+    }
+
+    /// Whether most slip phases repeat others, and no more than one motion there and back is repeated in each run: the errors of a
+    /// sensor then repeat, too. Slip phases are the same if they differ in no end by more than [`SAME_END`] of the travel.
+    pub(super) fn is_one_motion_repeated(&self) -> bool {
+        let [low, high] = self.travel();
+        let near = |a: f64, b: f64| (a - b).abs() <= SAME_END * (high - low);
+        let (mut count, mut different): (usize, Vec<&[WindowPlace]>) = (0, Vec::new());
+        for stroke in self.places().chunk_by(|a, b| a.phase == b.phase) {
+            count += 1;
+            let ends = |s: &[WindowPlace]| [s[0].angle, s[s.len() - 1].angle];
+            let own = ends(stroke);
+            let same = |other: &&[WindowPlace]| {
+                other[0].run == stroke[0].run
+                    && ends(other).iter().zip(own).all(|(a, b)| near(*a, b))
+            };
+            if !different.iter().any(same) {
+                different.push(stroke);
+            }
+        }
+        2 * different.len() <= count && different.len() <= THERE_AND_BACK * self.campaign.runs.len()
     }
 
     /// The speed that a share of the windows are slower than; `None` without windows.

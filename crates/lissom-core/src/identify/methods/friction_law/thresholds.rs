@@ -18,9 +18,12 @@ thresholds! {
         /// A term is worth adopting if each of its amplitudes saves more than this share of the squared
         /// residual of what was left out; a smaller one counts in the intervals. On 115 generated and
         /// 12 measured logs terms of the truth save 6 % and more; terms that stand for another effect
-        /// save up to 3 %, and ripples, which have two amplitudes, up to 9 % where the errors of a
-        /// sensor repeat with the motion (40 logs of one sine each).
+        /// save up to 3 %.
         SAVED_LEAST: f64 = 0.05, "1", Measured;
+        /// Where one motion is repeated, the errors of its sensor are, too: a ripple must then save more
+        /// than this share of the squared residual. In 40 logs of one sine, `tests/repeated_sine.rs`,
+        /// ripples of the encoder save up to 15 %.
+        RIPPLE_OF_ONE_MOTION: f64 = 0.5, "1", Convention;
         /// No term is adopted if there are fewer blocks of neighbouring slip phases than this.
         BLOCKS_LEAST: usize = 6, "blocks", Convention;
         /// Terms that are possible widen an interval up to this standard error, as a share of the
