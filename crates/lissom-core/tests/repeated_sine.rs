@@ -1,5 +1,5 @@
 //! One sine that is repeated: errors of its sensor are repeated, too, and are no property of the joint.
-#![expect(clippy::unwrap_used, clippy::print_stdout, reason = "tests")]
+#![expect(clippy::print_stdout, reason = "a test that shows its errors")]
 
 use std::f64::consts::TAU;
 
