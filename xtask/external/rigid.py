@@ -27,13 +27,13 @@ PIECES = 4
 
 
 @njit(cache=True)
-def position_loop(reference, limit, constant, pd, loop_s, decimation, step_rad, lag_s, pieces, arm):
+def position_loop(reference, limit, constant, pd, loop_s, decimation, step_rad, lag_s, pieces, turn, arm):
     """Currents at the samples (every `decimation` periods), encoder counts, angles with speeds, and the share of time at rest.
 
     A drive without lag (lag_s = 0) holds the current that the loop asks for; one with a lag follows it with that time constant.
     """
     samples = reference.size // decimation
-    x, y, k, turn = np.zeros(2), np.zeros(2), np.zeros((13, 2)), np.zeros((1, 1))
+    x, y, k = np.zeros(2), np.zeros(2), np.zeros((13, 2))
     currents, counts = np.empty(samples), np.empty(samples)
     states = np.empty((samples, 2))
     way, before, rate, stuck, actual = 0, 0.0, 0.0, 0.0, 0.0
@@ -87,13 +87,13 @@ class Case:
     stuck_share: float = field(init=False)
 
     def __post_init__(self):
-        arm = np.zeros((4, 2))
-        arm[0, 0], arm[1, 0], arm[2] = self.inertia_kg_m2, self.viscous_nm_s_per_rad, self.coulomb_nm
-        arm[3] = self.gravity_coefficients()
+        arm = np.zeros((3, 2))
+        arm[0, 0], arm[1], arm[2] = self.inertia_kg_m2, self.coulomb_nm, self.gravity_coefficients()
+        turn = np.array([[0.0, self.viscous_nm_s_per_rad]])
         loop_s, pieces = (FAST_LOOP_S, PIECES) if self.measured else (SAMPLE_S, 1)
         current, self.counts, self.states, self.stuck_share = position_loop(
             self.reference(loop_s), LIMIT_A, self.torque_constant_nm_per_a, PD, loop_s, round(SAMPLE_S / loop_s), STEP_RAD,
-            self.lag_s, pieces, arm,
+            self.lag_s, pieces, turn, arm,
         )
         noise = np.random.default_rng(self.seed).standard_normal(current.size)
         self.current = current + self.current_noise_a * noise

@@ -24,27 +24,33 @@ BISECTIONS = 60
 @njit(cache=True)
 def gravity(angle, arm):
     """Torque of an unbalanced load against the motor, of the motor's angle."""
-    if arm[3, 0] == 0.0 and arm[3, 1] == 0.0:
+    if arm[2, 0] == 0.0 and arm[2, 1] == 0.0:
         return 0.0
-    return arm[3, 0] * np.sin(angle) + arm[3, 1] * np.cos(angle)
+    return arm[2, 0] * np.sin(angle) + arm[2, 1] * np.cos(angle)
+
+
+@njit(cache=True)
+def pull(i, x, turn):
+    """Torque of stiffness and damping against angle i. turn: columns of stiffness, then of damping."""
+    found = 0.0
+    for j in range(x.size):
+        found += turn[i, j] * x[j]
+    return found
 
 
 @njit(cache=True)
 def rates(x, torque, way, turn, arm, out):
-    """dx/dt. arm: rows of inertias and viscous dampings of motor and masses, of the motor's friction forward and
-    backward, and of the coefficients of sine and cosine in gravity's torque; turn: stiffness in their angles."""
+    """dx/dt. arm: rows of inertias, of the motor's friction forward and backward, and of the coefficients of sine and cosine in
+    gravity's torque; turn: matrices of stiffness and damping in their angles and rates, side by side."""
     n = x.size // 2
     for i in range(n):
-        pull = 0.0
-        for j in range(n):
-            pull += turn[i, j] * x[j]
         out[i] = x[n + i]
-        out[n + i] = -(pull + arm[1, i] * x[n + i]) / arm[0, i]
+        out[n + i] = -pull(i, x, turn) / arm[0, i]
     if way == 0:
         out[0] = 0.0
         out[n] = 0.0
     else:
-        friction = arm[2, 0] if way > 0 else -arm[2, 1]
+        friction = arm[1, 0] if way > 0 else -arm[1, 1]
         out[n] += (torque - friction - gravity(x[0], arm)) / arm[0, 0]
 
 
@@ -83,18 +89,18 @@ def step(x, h, torque, way, turn, arm, k, y):
 def watched(x, torque, way, turn, arm):
     """What must stay positive in this phase, and its slope: speed along the way, or friction left (the less of both sides)."""
     n = x.size // 2
-    pull, change = 0.0, 0.0
-    for j in range(n):
-        pull += turn[0, j] * x[j]
-        change += turn[0, j] * x[n + j]
+    net = torque - gravity(x[0], arm) - pull(0, x, turn)
     if way != 0:
-        friction = arm[2, 0] if way > 0 else -arm[2, 1]
-        net = torque - gravity(x[0], arm) - friction - pull
-        return way * x[n], way * (net - arm[1, 0] * x[n]) / arm[0, 0]
-    net = torque - gravity(x[0], arm) - pull
-    if arm[2, 0] - net < net + arm[2, 1]:
-        return arm[2, 0] - net, change
-    return net + arm[2, 1], -change
+        friction = arm[1, 0] if way > 0 else -arm[1, 1]
+        return way * x[n], way * (net - friction) / arm[0, 0]
+    change = 0.0
+    for j in range(n):
+        change += turn[0, j] * x[n + j]
+    for j in range(1, n):
+        change -= turn[0, n + j] * pull(j, x, turn) / arm[0, j]
+    if arm[1, 0] - net < net + arm[1, 1]:
+        return arm[1, 0] - net, change
+    return net + arm[1, 1], -change
 
 
 @njit(cache=True)
@@ -115,13 +121,10 @@ def first(x, h, want_slope, torque, way, turn, arm, k, y):
 
 @njit(cache=True)
 def from_rest(x, torque, turn, arm):
-    pull = 0.0
-    for j in range(x.size // 2):
-        pull += turn[0, j] * x[j]
-    net = torque - gravity(x[0], arm) - pull
-    if net > arm[2, 0]:
+    net = torque - gravity(x[0], arm) - pull(0, x, turn)
+    if net > arm[1, 0]:
         return 1
-    if net < -arm[2, 1]:
+    if net < -arm[1, 1]:
         return -1
     return 0
 

@@ -52,12 +52,15 @@ class Arm:
         self.sample_time_s = given["sample_time_s"]
 
     def table(self):
-        """Rows: inertias, viscous dampings, friction forward and backward, gravity (none)."""
-        rows = np.zeros((4, 1 + self.masses))
+        """Rows: inertias, friction forward and backward, gravity (none)."""
+        rows = np.zeros((3, 1 + self.masses))
         rows[0] = [self.inertia_kg_m2, *self.inertia]
-        rows[1] = [self.viscous_nm_s_per_rad, *self.drag]
-        rows[2, :2] = self.forward_nm, self.backward_nm
+        rows[1, :2] = self.forward_nm, self.backward_nm
         return rows
+
+    def turn(self):
+        """Stiffness and damping, side by side."""
+        return np.hstack([self.stiffness, np.diag([self.viscous_nm_s_per_rad, *self.drag])])
 
 
 def reference(given, times):
@@ -87,7 +90,7 @@ def simulate(given, arm, run, keep_states=False):
     pd = np.array([given["proportional_a_per_rad"], given["derivative_a_s_per_rad"], given["filter_s"]])
     return stick_slip.loop(
         reference(run["reference"], times), noise, steps, pd, arm.sample_time_s, given["limit_a"],
-        arm.torque_constant_nm_per_a, np.ascontiguousarray(arm.stiffness), arm.table(), run["wait_samples"], keep_states,
+        arm.torque_constant_nm_per_a, arm.turn(), arm.table(), run["wait_samples"], keep_states,
     )
 
 

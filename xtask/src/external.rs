@@ -115,6 +115,21 @@ fn command_path(root: &Path) -> PathBuf {
     root.join(target).join("release").join(format!("lissom{}", env::consts::EXE_SUFFIX))
 }
 
+/// Simulates flexible arms in Python, identifies them, and compares the estimates with the truth.
+pub(crate) fn arms(
+    root: &Path,
+    [count, seed]: [&str; 2],
+    further: &[String],
+) -> Result<(), Failure> {
+    let python = Python::new(root)?;
+    let folder = folder(root, "arms")?;
+    let build = ["build", "--release", "--package", "lissom-cli"];
+    run("build of the command", &mut cargo(root, &build))?;
+    let mut study = python.script("outside_arms.py");
+    study.arg(&folder).args([count, seed]).arg(command_path(root)).args(further);
+    run("simulation and identification", &mut study)
+}
+
 /// Simulates random campaigns in Python; the study identifies them and compares the estimates with the truth.
 pub(crate) fn truth(root: &Path, campaigns: &str) -> Result<(), Failure> {
     let python = Python::new(root)?;

@@ -131,6 +131,14 @@ const RECIPES: &[Recipe] = &[
         run: truth,
     },
     Recipe {
+        name: "arms",
+        about: "simulate flexible arms that are nobody's rig in Python and identify them, in the same environment; minutes",
+        takes: Takes::Arguments(
+            "number of arms (default 100), a seed (default 1), then `--quick` and the like of outside_arms.py",
+        ),
+        run: arms,
+    },
+    Recipe {
         name: "margins",
         about: "measure how near the comparisons come to their thresholds, in the same environment; half an hour",
         takes: Takes::Arguments("a seed (default 1), then campaign files"),
@@ -307,6 +315,13 @@ fn external(context: &Context) -> Result<(), Failure> {
 /// Runs the study with logs of an independent simulator instead of the virtual rig.
 fn truth(context: &Context) -> Result<(), Failure> {
     external::truth(&context.root, context.flags.first().map_or("100", String::as_str))
+}
+
+/// Identifies flexible arms of an independent simulator.
+fn arms(context: &Context) -> Result<(), Failure> {
+    let given = |k: usize, default| context.flags.get(k).map_or(default, String::as_str);
+    let further = context.flags.get(2..).unwrap_or_default();
+    external::arms(&context.root, [given(0, "100"), given(1, "1")], further)
 }
 
 /// Measures how near the comparisons come to their thresholds.
