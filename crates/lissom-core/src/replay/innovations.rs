@@ -75,11 +75,8 @@ impl<const D: usize> Innovations<D> {
     pub(super) fn advance(&mut self, tangents: &mut Tangents<D>, slips: bool) {
         let a = tangents.take_units(self.units);
         self.beyond = product(&a, &self.beyond);
-        // A·P·Aᵀ: the columns of A·P, then A times the rows of that.
-        let by_columns: [[f64; D]; D] =
-            std::array::from_fn(|j| product(&a, &std::array::from_fn(|i| self.covariance[i][j])));
-        let rows = |i: usize| std::array::from_fn(|j| by_columns[j][i]);
-        let found: [[f64; D]; D] = std::array::from_fn(|i| product(&a, &rows(i)));
+        let transposed = std::array::from_fn(|i| std::array::from_fn(|j| a[j][i]));
+        let found = times(&times(&a, &self.covariance), &transposed);
         self.covariance =
             std::array::from_fn(|i| std::array::from_fn(|j| 0.5 * (found[i][j] + found[j][i])));
         let beside = product(&a, &self.last.beside);
@@ -140,8 +137,28 @@ impl<const D: usize> Innovations<D> {
     }
 }
 
+/// `A·x`, in loops that a compiler unrolls.
 fn product<const D: usize>(a: &[[f64; D]; D], x: &[f64; D]) -> [f64; D] {
-    a.map(|row| row.iter().zip(x).map(|(a, x)| a * x).sum())
+    let mut found = [0.0; D];
+    for (sum, row) in found.iter_mut().zip(a) {
+        for (a, x) in row.iter().zip(x) {
+            *sum += a * x;
+        }
+    }
+    found
+}
+
+/// `A·B`, row by row: a whole row is added at a time.
+fn times<const D: usize>(a: &[[f64; D]; D], b: &[[f64; D]; D]) -> [[f64; D]; D] {
+    let mut found = [[0.0; D]; D];
+    for (sum, row) in found.iter_mut().zip(a) {
+        for (a, b) in row.iter().zip(b) {
+            for (sum, b) in sum.iter_mut().zip(b) {
+                *sum += a * b;
+            }
+        }
+    }
+    found
 }
 
 #[cfg(test)]

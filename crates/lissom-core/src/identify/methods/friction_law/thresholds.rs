@@ -21,8 +21,7 @@ thresholds! {
         /// save up to 3 %.
         SAVED_LEAST: f64 = 0.05, "1", Measured;
         /// Where one motion is repeated, the errors of its sensor are, too: a ripple must then save more
-        /// than this share of the squared residual. In 40 logs of one sine, `tests/repeated_sine.rs`,
-        /// ripples of the encoder save up to 15 %.
+        /// than this share of the squared residual (`tests/repeated_sine.rs`).
         RIPPLE_OF_ONE_MOTION: f64 = 0.5, "1", Convention;
         /// No term is adopted if there are fewer blocks of neighbouring slip phases than this.
         BLOCKS_LEAST: usize = 6, "blocks", Convention;
