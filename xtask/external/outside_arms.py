@@ -3,7 +3,10 @@
 A beam of finite elements (Euler-Bernoulli, cubic shape functions) with mass along it and at its end is clamped to a hub with dry
 friction. Its modes move with stick_slip.py's events under a sampled position loop; the current is measured with noise. Each arm
 is written as a user's logs: FOLDER/NNNN/campaign.toml, its logs, truth.json. With LISSOM (the program) they are identified and
-compared with the truth. Options: --quick, --first=INDEX, and --kind=, --motion=, --late_ms= for all arms alike.
+compared with the truth. Options: --quick, --first=INDEX, and --kind=, --motion=, --late_ms= (to whole periods of the loop, not of
+an accelerometer) for all arms alike; --same makes the
+arm of FIRST again and again with other noise, and --noise= (of the current, as a share of its rms) and --steps (the same as steps
+of its sensor in place of white noise) set what the current has.
 
 What parameters mean where the estimate has n modes and the beam has more: a mode above them follows the hub as if it were rigid.
 Inertia is that of the hub and of those modes, J + Σ_{k>n} h_k²; coupling is the stiffness of the n modes, Σ_{k≤n} h_k²·ω_k², where
@@ -95,9 +98,9 @@ class Arm:
         self.viscous = peak / (self.travel * 0.5 * self.bandwidth) * log(0.03, 0.3)
         self.gains = np.array([self.bandwidth**2, 1.6 * self.bandwidth]) * total / self.constant
         self.limit = 10 * (peak + 2 * self.coulomb) / self.constant
-        # Of the measured current, as a share of its rms.
-        self.noise = float(rng.choice([0.002, 0.005, 0.02, 0.05]))
-        self.late_s = 1e-3 * late_ms if late_ms is not None else 0.0
+        # Of the measured current, as a share of its rms: white, or steps.
+        self.noise, self.stepped = float(rng.choice([0.002, 0.005, 0.02, 0.05])), False
+        self.late_s = 1e-3 * late_ms if late_ms and self.kind != "accelerometer" else 0.0
         self.duration_s = max(10.0, 40 / first_hz)
         base = self.bandwidth / (2 * math.pi)
         # Kind of motion, its frequency [Hz], and its size, last frequency or seed.
@@ -178,14 +181,19 @@ class Arm:
         currents, counts, _, stuck, states = stick_slip.loop(
             self.reference(run, t), noise, np.full(1 + MODES, self.step), pd, fast_s, self.limit, self.constant, *matrices, wait, True,
         )
-        counts, states = counts[::LOOPS, 0], states[wait::LOOPS]
+        # A late tip shows the state of some loops before.
+        late = round(self.late_s / fast_s)
+        counts, states = counts[::LOOPS, 0], states[wait - late : len(states) - late : LOOPS]
         tip = self.tip(states, self.constant * currents[::LOOPS], matrices)
         # At a sample the current steps: what is measured there is the mean of before and after.
         currents = 0.5 * (currents + np.concatenate([currents[:1], currents[:-1]]))[::LOOPS]
-        currents += self.noise * np.sqrt(np.mean(currents**2)) * self.rng.standard_normal(currents.size)
+        noise = self.noise * np.sqrt(np.mean(currents**2))
+        if self.stepped and noise > 0:
+            step = math.sqrt(12) * noise
+            currents = np.round(currents / step + self.rng.uniform(-0.5, 0.5)) * step
+        else:
+            currents += noise * self.rng.standard_normal(currents.size)
         time_s = self.sample_s * np.arange(tip.size)
-        if self.late_s:
-            tip = np.interp(time_s - self.late_s, time_s, tip)
         return [time_s, currents, counts * self.step, tip], stuck
 
     def truth(self, modes):
@@ -294,7 +302,11 @@ def main(arguments):
     for i in indices:
         own = Path(folder) / f"{seed}-{i:04}"
         if not (own / "truth.json").exists():
-            Arm(np.random.default_rng([int(seed), i]), options.get("kind"), options.get("motion"), late_ms).write(own)
+            drawn = [int(seed), indices[0] if "--same" in arguments else i]
+            arm = Arm(np.random.default_rng(drawn), options.get("kind"), options.get("motion"), late_ms)
+            arm.rng = np.random.default_rng([int(seed), i, 1])
+            arm.noise, arm.stepped = float(options.get("noise", arm.noise)), "--steps" in arguments
+            arm.write(own)
         if command:
             results.append(Result(own, command[0], [a for a in arguments if a == "--quick"]))
             print(i, results[-1].text(), flush=True)

@@ -11,7 +11,7 @@ use std::{
 
 use crate::{
     python_environment::PythonEnvironment,
-    step::{Failure, cargo, folder, run},
+    step::{Failure, cargo, folder, run, target_folder},
 };
 
 /// A Python environment with the versions that `requirements.txt` pins.
@@ -111,8 +111,7 @@ pub(crate) fn margins(root: &Path, seed: &str, campaigns: &[String]) -> Result<(
 
 /// The path of the command's release build.
 fn command_path(root: &Path) -> PathBuf {
-    let target = env::var_os("CARGO_TARGET_DIR").map_or_else(|| root.join("target"), PathBuf::from);
-    root.join(target).join("release").join(format!("lissom{}", env::consts::EXE_SUFFIX))
+    target_folder(root).join("release").join(format!("lissom{}", env::consts::EXE_SUFFIX))
 }
 
 /// Simulates flexible arms in Python, identifies them, and compares the estimates with the truth.

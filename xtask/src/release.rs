@@ -1,8 +1,8 @@
 //! Parts of a release: the packaged crates, and a static binary with its licences.
 
-use std::{env, fs, path::Path, process::Command};
+use std::{fs, path::Path, process::Command};
 
-use crate::step::{Failure, ask, cargo, run};
+use crate::step::{Failure, ask, cargo, run, target_folder};
 
 /// The target whose binaries need no system library.
 const STATIC_TARGET: &str = "x86_64-unknown-linux-musl";
@@ -34,7 +34,7 @@ pub(crate) fn package(root: &Path) -> Result<(), Failure> {
 pub(crate) fn static_binary(root: &Path) -> Result<(), Failure> {
     let mut command = cargo(root, &["build", "--release", "--package", "lissom-cli", "--target"]);
     run("static binary", command.arg(STATIC_TARGET).env("CARGO_PROFILE_RELEASE_STRIP", "true"))?;
-    let target = env::var_os("CARGO_TARGET_DIR").map_or_else(|| root.join("target"), Into::into);
+    let target = target_folder(root);
     let out = target.join("release-static");
     let failed = |path: &Path| {
         let path = path.display().to_string();

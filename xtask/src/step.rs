@@ -68,6 +68,11 @@ pub(crate) fn folder(root: &Path, name: &str) -> Result<PathBuf, Failure> {
     Ok(folder)
 }
 
+/// The folder that cargo builds into.
+pub(crate) fn target_folder(root: &Path) -> PathBuf {
+    env::var_os("CARGO_TARGET_DIR").map_or_else(|| root.join("target"), |given| root.join(given))
+}
+
 /// Runs one step and passes its output through.
 pub(crate) fn run(title: &str, command: &mut Command) -> Result<(), Failure> {
     println!("\n--- {title}");

@@ -2,7 +2,7 @@
 
 use std::{env, path::Path, process::Command};
 
-use crate::step::{Failure, cargo, folder, run};
+use crate::step::{Failure, cargo, folder, run, target_folder};
 
 /// Checks the committed scripts, and runs the tests in Chromium: `CHROMIUM` names another program than Debian's.
 pub(crate) fn test(root: &Path) -> Result<(), Failure> {
@@ -19,7 +19,7 @@ pub(crate) fn test(root: &Path) -> Result<(), Failure> {
     // The features of the tests of the workspace: most is built already.
     let program = ["--workspace", "--features", "lissom-io/schema", "--bin", "lissom"];
     run("the program", cargo(root, &["build"]).args(program))?;
-    let target = env::var_os("CARGO_TARGET_DIR").map_or_else(|| root.join("target"), Into::into);
+    let target = target_folder(root);
     let program = target.join("debug").join("lissom").with_extension(env::consts::EXE_EXTENSION);
     let demo = folder(root, "web-demo")?;
     let mut write = Command::new(&program);

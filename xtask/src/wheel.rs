@@ -1,14 +1,14 @@
 //! The wheel of the Python package: built as it would be published, installed into clean environments, and tested there.
 
 use std::{
-    env, fs,
+    fs,
     path::{Path, PathBuf},
     process::Command,
 };
 
 use crate::{
     python_environment::PythonEnvironment,
-    step::{Failure, cargo, folder, run},
+    step::{Failure, cargo, folder, run, target_folder},
 };
 
 /// The oldest Linux that the wheel runs on: glibc 2.28 (2018). A wheel that needs more is refused.
@@ -89,8 +89,7 @@ fn source_distribution(
     let top = entries.next().ok_or_else(|| failed(std::io::ErrorKind::NotFound.into()))?.path();
     let mut check = cargo(&top, &["check", "--locked", "--package", "lissom-py"]);
     // The dependencies are those of this workspace, which are built already.
-    let target = env::var_os("CARGO_TARGET_DIR").map_or_else(|| root.join("target"), Into::into);
-    run("source distribution checked", check.env("CARGO_TARGET_DIR", target))
+    run("source distribution checked", check.env("CARGO_TARGET_DIR", target_folder(root)))
 }
 
 /// Runs a step that makes the only file with this ending in a folder; gives it.
