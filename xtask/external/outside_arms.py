@@ -3,10 +3,9 @@
 A beam of finite elements (Euler-Bernoulli, cubic shape functions) with mass along it and at its end is clamped to a hub with dry
 friction. Its modes move with stick_slip.py's events under a sampled position loop; the current is measured with noise. Each arm
 is written as a user's logs: FOLDER/NNNN/campaign.toml, its logs, truth.json. With LISSOM (the program) they are identified and
-compared with the truth. Options: --quick, --first=INDEX, and --kind=, --motion=, --late_ms= (to whole periods of the loop, not of
-an accelerometer) for all arms alike; --same makes the
-arm of FIRST again and again with other noise, and --noise= (of the current, as a share of its rms) and --steps (the same as steps
-of its sensor in place of white noise) set what the current has.
+compared with the truth. Options: --quick, --first=INDEX, and --kind=, --motion=, --late_ms= (to whole periods of the loop, not
+of an accelerometer) for all arms alike; --same makes the arm of FIRST again and again with other noise, and --noise= (of the
+current, as a share of its rms) and --steps (the same as steps of its sensor in place of white noise) set what the current has.
 
 What parameters mean where the estimate has n modes and the beam has more: a mode above them follows the hub as if it were rigid.
 Inertia is that of the hub and of those modes, J + Σ_{k>n} h_k²; coupling is the stiffness of the n modes, Σ_{k≤n} h_k²·ω_k², where
