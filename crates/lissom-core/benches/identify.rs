@@ -54,6 +54,7 @@ fn start(campaign: &Campaign, omega_rad_s: &[Option<f64>]) -> OutputErrorStart {
     let beam = beam_regression(&Prepared::of(campaign));
     let arms = starts(campaign, &motor.estimates(), beam.as_ref(), None);
     OutputErrorStart {
+        shown_rad_s: Vec::new(),
         further_terms: Vec::new(),
         most_evaluations: Effort::Thorough.most_evaluations(),
         interrupt: Interrupt::default(),

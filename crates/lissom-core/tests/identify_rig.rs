@@ -2,7 +2,7 @@
 #![expect(clippy::unwrap_used, reason = "tests")]
 
 use lissom::arm::Arm;
-use lissom::beam::{LumpedBeam, Span};
+use lissom::beam::{Damping, LumpedBeam, Span};
 use lissom::drive::{Coulomb, Motor};
 use lissom::identify::{
     Effort, Estimate, Identified, LagShape, MissingKind, MissingTerm, Options, identify,
@@ -93,6 +93,32 @@ fn two_masses_with_friction_by_direction() {
     assert_eq!(id.beam.modes.len(), 2, "{:?}", id.beam.modes);
     for (mode, truth) in id.beam.modes.iter().zip(truth) {
         within("mode", Some(mode.natural_frequency_rad_s), truth, 0.002);
+    }
+}
+
+/// Without a replay each mode has a damping ratio of its own.
+#[test]
+fn two_masses_have_a_ratio_each() {
+    let span = |mass_kg| Span {
+        length_m: 0.15,
+        flexural_rigidity_n_m2: 0.02,
+        mass_kg,
+        damping_n_s_per_m: 0.0,
+    };
+    let ratios = [0.01, 0.02];
+    let beam = LumpedBeam::new(&[span(0.06), span(0.04)]).unwrap();
+    let beam = beam.with_damping(Damping::Modal { ratios: ratios.to_vec() }).unwrap();
+    let motor = Motor::new(8e-4, 2e-3, 0.3).unwrap();
+    let arm = Arm::new(beam, motor, Coulomb::symmetric(0.045).unwrap()).unwrap();
+    let tips = vec![tip("1", TipQuantity::Angle), tip("2", TipQuantity::Angle)];
+    let channels = Channels { axis: Axis::Rotary, command: current(0.3), tips };
+    let campaign = Campaign::new(channels, runs(&rig(arm))).unwrap();
+    let options = Options { effort: Effort::Quick, ..Options::default() };
+    let id = identify(&campaign, &options, |_| ()).unwrap();
+    for (mode, truth) in id.beam.modes.iter().zip(ratios) {
+        let found = mode.damping_ratio;
+        assert!((found.value - truth).abs() < 4.0 * found.std, "{found:?}");
+        assert!(found.std < 0.05 * truth, "{found:?}");
     }
 }
 

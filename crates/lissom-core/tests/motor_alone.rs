@@ -104,6 +104,7 @@ fn a_mode_that_is_none_goes() {
         grounded_per_s: 0.0,
     }];
     let start = OutputErrorStart {
+        shown_rad_s: Vec::new(),
         further_terms: Vec::new(),
         most_evaluations: Effort::Thorough.most_evaluations(),
         interrupt: Interrupt::default(),

@@ -77,6 +77,7 @@ fn wrong(arm: &ModalArm, ([inertia, viscous, coulomb], [omega, stiffness]): Fact
 
 fn from(campaign: &Campaign, sines_rad_s: &[f64], arm: ModalArm) -> OutputError {
     let start = OutputErrorStart {
+        shown_rad_s: Vec::new(),
         further_terms: Vec::new(),
         most_evaluations: Effort::Thorough.most_evaluations(),
         interrupt: Interrupt::default(),

@@ -92,7 +92,7 @@ fn unknowns(arm: &ModalArm, law: Law) -> Vec<Parameter> {
             _ => Parameter::DampingAtPoint(j),
         });
     }
-    let shares = |i| (0..modes.saturating_sub(1)).map(move |j| Parameter::ShapeShare(i, j));
+    let shares = |i| (0..modes).map(move |j| Parameter::Shape(i, j));
     all.extend((0..arm.shapes.len()).flat_map(shares));
     all
 }

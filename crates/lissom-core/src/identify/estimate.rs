@@ -59,8 +59,9 @@ pub struct ModeEstimate {
 }
 
 impl ModeEstimate {
-    /// Damping ratio, if it is physically possible; `None` if it is significantly below zero.
+    /// Damping ratio, no less than zero, which is possible; `None` if it is significantly below zero.
     pub fn given_damping_ratio(&self) -> Option<Estimate> {
-        Some(self.damping_ratio).filter(|ratio| !ratio.is_negative())
+        let ratio = self.damping_ratio;
+        (!ratio.is_negative()).then(|| Estimate { value: ratio.value.max(0.0), ..ratio })
     }
 }

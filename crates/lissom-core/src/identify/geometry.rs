@@ -62,9 +62,12 @@ pub struct GeometryCheck {
 ///
 /// The inertia that belongs to modes that were not found counts as part of J. The standard error of a factor is
 /// increased if the quantity does not explain the difference. `None` if `described` is known only by its modes or has
-/// fewer modes than were found, or if no modes were found.
+/// fewer modes than were found, if no modes were found, or if one of them is without stiffness.
 pub fn geometry_check(described: &Arm, found: &OutputError) -> Option<GeometryCheck> {
     let modes = found.arm.modes.len();
+    if found.arm.modes.iter().any(|mode| mode.stiffness_nm_per_rad == 0.0) {
+        return None;
+    }
     let estimates = 1 + 2 * modes;
     let shown = |arm: &ModalArm, i: usize| match i.checked_sub(1) {
         None => arm.inertia_kg_m2.ln(),

@@ -13,10 +13,10 @@ use crate::identify::methods::least_squares::least_squares;
 use crate::identify::methods::output_error::{OutputError, OutputErrorStart, output_error};
 use crate::identify::methods::regression::thresholds::FEW_PHASES;
 use crate::identify::methods::regression::{
-    BeamRegression, MotorRegression, beam_regression, other_hold,
+    BeamRegression, MotorRegression, beam_regression, other_hold, with_tips_in_time,
 };
 use crate::identify::methods::rigid_equation::rigid_equation;
-use crate::identify::methods::starting_arms::{starting_arms, with_law};
+use crate::identify::methods::starting_arms::{starting_arms, starts_by_bending, with_law};
 use crate::identify::methods::third_harmonic::{ThirdHarmonic, third_harmonic};
 use crate::identify::methods::unlike_runs::regression_of_like_runs;
 use crate::identify::options::{Effort, Options};
@@ -24,11 +24,12 @@ use crate::identify::prepare::prepared::Prepared;
 use crate::identify::prepare::run_analysis::RunKind;
 use crate::identify::responses::linear_models::LinearModels;
 use crate::identify::responses::models::{beam_model, estimates_model, rigid_model};
+use crate::identify::responses::rational::BeamFit;
 use crate::identify::responses::response_point::ResponsePoint;
 use crate::identify::responses::response_step::{ResponseTables, Responses};
 use crate::identify::thresholds::{
-    BEAM_RESIDUAL, CONSTANT_VELOCITY_ALONE, CONSTANT_VELOCITY_FEW, MODE_DAMPING_LEAST,
-    REFUSED_TORQUE, UNEXPLAINED_TORQUE,
+    BEAM_RESIDUAL, BEAM_SHARES, CONSTANT_VELOCITY_ALONE, CONSTANT_VELOCITY_FEW, MODE_DAMPING_LEAST,
+    PRESENT, REFUSED_TORQUE, UNEXPLAINED_TORQUE,
 };
 use crate::record::Campaign;
 use crate::replay::ModalArm;
@@ -136,7 +137,9 @@ pub fn identify(
     // From constant velocities alone it is accepted if their transitions show the inertia.
     let doubted = prepared.has_only_constant_velocities() && constant_velocity.is_some();
     let (prepared, line_of_runs) = regression_of_like_runs(prepared, options);
-    let mut any_regression = line_of_runs.filter(|r| !doubted || is_sound_alone(r));
+    let any_regression = line_of_runs.filter(|r| !doubted || is_sound_alone(r));
+    let (prepared, mut any_regression, late_tips) =
+        with_tips_in_time(prepared, any_regression, options);
     progress(Stage::Beam);
     // Each loops over the runs on all threads, and leaves some of them idle between its loops.
     let (mut model, beside) = rayon::join(
@@ -187,9 +190,12 @@ pub fn identify(
         let replayed = if delay.is_some() { &prepared } else { in_time };
         let lag_s = delay.map_or(0.0, |lag| lag.time_s);
         let known = (&drive, &motor, lag_s);
-        let arms = starting_arms(replayed.used(), known, beam, tips, &shown, corrected);
+        let mut arms = starts_by_bending(replayed, options);
+        arms.extend(starting_arms(replayed.used(), known, beam, tips, &shown, corrected));
         let arms = with_law(law, arms, replayed.used());
-        let found = output_error(replayed, &start_of(replayed, options, arms, law))?;
+        let shown_rad_s = tips.map_or(Vec::new(), BeamFit::frequencies_rad_s);
+        let start = OutputErrorStart { shown_rad_s, ..start_of(replayed, options, arms, law) };
+        let found = output_error(replayed, &start)?;
         let (campaign, noise) = (replayed.used(), replayed.noise());
         let unused =
             law.and_then(|law| law.unused.with_arm(campaign, noise, law.window_s, &found.arm));
@@ -247,7 +253,8 @@ pub fn identify(
     let evidence = Evidence::of(&prepared, &methods);
     let findings =
         [prepared.findings().to_vec(), steady_findings, response_findings, refused].concat();
-    let findings = findings.into_iter().chain(without_coupling).chain(hold).collect();
+    let findings = findings.into_iter().chain(without_coupling).chain(hold);
+    let findings = findings.chain(late_tips).collect();
     let conclusion = conclude(&evidence, findings);
     let models = LinearModels::of(&evidence);
     let runs = prepared.into_runs();
@@ -265,10 +272,14 @@ fn assumed_hold(
     Some(Finding::new(RegressionFinding::HoldAssumed { other, units }))
 }
 
-/// Whether the beam's regression has a small residual, and all its modes are damped.
+/// Whether the beam's regression has a small residual, all its modes are damped, and the tips show about all of their motion.
 fn is_sound_beam(b: &BeamRegression) -> bool {
-    let damped = |m: &ModeEstimate| m.damping_ratio.value > MODE_DAMPING_LEAST;
-    b.relative_residual.iter().all(|r| *r < BEAM_RESIDUAL) && b.modes.iter().all(damped)
+    let damped = |m: &ModeEstimate| {
+        m.damping_ratio.value > MODE_DAMPING_LEAST - PRESENT * m.damping_ratio.std
+    };
+    let whole = |share: &Estimate| (1.0 / BEAM_SHARES..BEAM_SHARES).contains(&share.value);
+    let explains = b.relative_residual.iter().all(|r| *r < BEAM_RESIDUAL);
+    explains && b.modes.iter().all(damped) && b.shares.iter().all(whole)
 }
 
 fn possible(options: &Options) -> Result<(), IdentifyError> {
@@ -331,6 +342,7 @@ fn start_of(
         first_window_s: None,
         most_evaluations: options.evaluations(),
         interrupt: options.interrupt.clone(),
+        shown_rad_s: Vec::new(),
         further_terms: law.map(FrictionLaw::further_terms).unwrap_or_default(),
     }
 }

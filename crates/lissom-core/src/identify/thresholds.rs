@@ -54,6 +54,9 @@ thresholds! {
         /// Residual of a tip's acceleration, as a share of the acceleration, above which the beam's
         /// regression is not used.
         BEAM_RESIDUAL: f64 = 0.1, "1", Convention;
+        /// Sum of a tip's shares in the modes below whose inverse, or above which, the beam's regression is not used. The first
+        /// mode of a uniform beam has 1.14 by the tip's position and 1.57 by its slope; its higher modes take the rest.
+        BEAM_SHARES: f64 = 2.0, "1", Convention;
         /// Noise may make the damping ratio of a mode of the beam's regression negative down to
         /// this value. If a ratio is lower, the mode gains energy: its frequency is then wrong as
         /// well, and the regression is not used.

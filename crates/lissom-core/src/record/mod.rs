@@ -16,6 +16,7 @@ pub use channel::{Axis, Channels, Command, CommandQuantity, Hold, Tip, TipQuanti
 pub use error::RecordError;
 pub use note::Note;
 pub use rest_readings::{RestingReadings, rest_at_zero};
+pub(crate) use run::shifted;
 pub use run::{Run, TimeBase};
 pub use spikes::{ReplacedReading, replace_spikes};
 pub use undriven::undriven;

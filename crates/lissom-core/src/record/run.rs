@@ -119,6 +119,12 @@ impl Run {
         Self { command, ..self.clone() }
     }
 
+    /// The same run with readings of a tip that were taken so much earlier than they are logged.
+    pub(crate) fn with_tip_taken_earlier(mut self, tip: usize, by_s: f64) -> Self {
+        self.tips[tip] = shifted(&self.tips[tip], -by_s / self.time.sample_time_s);
+        self
+    }
+
     /// Name in results and messages.
     pub fn name(&self) -> &str {
         &self.name
@@ -159,4 +165,17 @@ impl Run {
     pub fn notes(&self) -> &[Note] {
         &self.notes
     }
+}
+
+/// The values of so many samples before, straight between samples.
+pub(crate) fn shifted(values: &[f64], samples: f64) -> Vec<f64> {
+    let last = (values.len() - 1) as f64;
+    let at = |k: usize| {
+        let place = (k as f64 - samples).clamp(0.0, last);
+        let before = place as usize;
+        let share = place - before as f64;
+        let after = (before + 1).min(values.len() - 1);
+        values[before] + share * (values[after] - values[before])
+    };
+    (0..values.len()).map(at).collect()
 }

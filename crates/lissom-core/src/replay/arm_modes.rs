@@ -27,9 +27,11 @@ impl<'a> ArmModes<'a> {
     pub fn of(arm: &'a Arm) -> Option<Self> {
         let dynamics = arm.dynamics();
         let n = dynamics.len();
-        let (omega_rad_s, shapes) = match n {
-            0 => (Vec::new(), Vec::new()),
-            _ => ModalArm::modes_of(&-&dynamics.elastic)?,
+        let (omega_rad_s, shapes) = if n == 0 {
+            (Vec::new(), Vec::new())
+        } else {
+            let elastic = &dynamics.elastic;
+            ModalArm::modes_of(&-elastic, &vec![1.0; elastic.nrows()])?
         };
         let shapes = DMatrix::from_fn(n, n, |i, j| shapes[i][j]);
         let inverse = shapes.clone().try_inverse()?;

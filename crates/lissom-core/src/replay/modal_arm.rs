@@ -148,6 +148,21 @@ impl ModalArm {
         r.lu().solve(&damped)
     }
 
+    /// The same arm without modes of stiffness zero, which only tips show.
+    #[must_use]
+    pub fn without_light_modes(mut self) -> Self {
+        let is_heavy = |mode: &Oscillator| mode.stiffness_nm_per_rad != 0.0;
+        let heavy: Vec<usize> =
+            (0..self.modes.len()).filter(|j| is_heavy(&self.modes[*j])).collect();
+        if heavy.len() < self.modes.len() {
+            self.modes = heavy.iter().map(|j| self.modes[*j]).collect();
+            let of_heavy = |row: &Vec<f64>| heavy.iter().map(|j| row[*j]).collect();
+            self.shapes = self.shapes.iter().map(of_heavy).collect();
+            self.at_points_per_s.clear();
+        }
+        self
+    }
+
     /// Coupling Σk_j: torque per angle of the motor with the masses of the beam held \[N·m/rad\].
     pub fn coupling_nm_per_rad(&self) -> f64 {
         self.modes.iter().map(|m| m.stiffness_nm_per_rad).sum()
@@ -232,12 +247,12 @@ impl ModalArm {
         viscous + modes + self.at_points_per_s.iter().map(|c| c.abs()).fold(0.0, most)
     }
 
-    /// Modes and shapes of `θ̈_i = −Σ_l K_il·(θ_l − θ_m) − …`, with the rows of K by tip \[1/s²\]: `(ω_j, r_ij)`,
-    /// ascending in frequency. `None` unless all frequencies are real, positive and distinct.
+    /// Modes and shapes of `θ̈_i = −Σ_l K_il·(θ_l − θ_m) + (1 − s_i)·θ̈_m − …`, with the rows of K by tip \[1/s²\]:
+    /// `(ω_j, r_ij)`, ascending in frequency. `None` unless all frequencies are real, positive and distinct.
     ///
-    /// Each column of r is an eigenvector of K. The columns are scaled so that each row adds up to one: all points turn
-    /// with the motor if nothing is deflected (property 2, B = −A·1).
-    pub fn modes_of(stiffness: &DMatrix<f64>) -> Option<(Vec<f64>, Vec<Vec<f64>>)> {
+    /// Each column of r is an eigenvector of K. The columns are scaled so that row i adds up to s_i: one if there are no
+    /// further modes, since all points turn with the motor if nothing is deflected (property 2, B = −A·1).
+    pub fn modes_of(stiffness: &DMatrix<f64>, sums: &[f64]) -> Option<(Vec<f64>, Vec<Vec<f64>>)> {
         let n = stiffness.nrows();
         let mut squares: Vec<f64> = eigenvalues(stiffness)?
             .into_iter()
@@ -251,7 +266,7 @@ impl ModalArm {
         for (j, square) in squares.iter().enumerate() {
             vectors.set_column(j, &eigenvector(stiffness, *square)?);
         }
-        let scale = vectors.clone().lu().solve(&DVector::from_element(n, 1.0))?;
+        let scale = vectors.clone().lu().solve(&DVector::from_column_slice(sums))?;
         let shapes = (0..n).map(|i| (0..n).map(|j| vectors[(i, j)] * scale[j]).collect()).collect();
         Some((squares.iter().map(|s| s.sqrt()).collect(), shapes))
     }
@@ -276,7 +291,7 @@ mod tests {
     #[test]
     fn modes_of_two_masses_give_back_their_matrix() {
         let k = DMatrix::from_row_slice(2, 2, &[900.0, -250.0, -700.0, 400.0]);
-        let (omega, shapes) = ModalArm::modes_of(&k).unwrap();
+        let (omega, shapes) = ModalArm::modes_of(&k, &[1.0; 2]).unwrap();
         let r = DMatrix::from_fn(2, 2, |i, j| shapes[i][j]);
         let squares = DMatrix::from_diagonal(&DVector::from_fn(2, |j, _| omega[j] * omega[j]));
         let back = &r * squares * r.clone().try_inverse().unwrap();
@@ -286,6 +301,6 @@ mod tests {
 
     #[test]
     fn a_beam_that_would_push_has_no_modes() {
-        assert!(ModalArm::modes_of(&DMatrix::from_element(1, 1, -4.0)).is_none());
+        assert!(ModalArm::modes_of(&DMatrix::from_element(1, 1, -4.0), &[1.0]).is_none());
     }
 }

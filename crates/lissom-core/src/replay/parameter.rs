@@ -39,9 +39,6 @@ pub enum Parameter {
     TipLag(usize),
     /// Share r of a tip (first index) and a mode (second index) \[1\].
     Shape(usize, usize),
-    /// The same share, while the share of the last mode changes by the opposite amount: the sum over the modes of the
-    /// tip stays constant.
-    ShapeShare(usize, usize),
 }
 
 /// What a parameter enters.
@@ -63,9 +60,7 @@ impl Parameter {
     pub(crate) fn enters(self, arm: &ModalArm) -> Enters {
         match self {
             // Dampers at points are in the modes by the shapes.
-            Self::Shape(..) | Self::ShapeShare(..) if !arm.at_points_per_s.is_empty() => {
-                Enters::Matrices
-            }
+            Self::Shape(..) if !arm.at_points_per_s.is_empty() => Enters::Matrices,
             Self::Inertia
             | Self::Viscous
             | Self::ViscousDifference
@@ -77,7 +72,7 @@ impl Parameter {
             Self::Coulomb | Self::Offset | Self::Friction(_) => Enters::Friction,
             Self::GravitySine | Self::GravityCosine => Enters::Load,
             Self::CommandLag => Enters::Lag,
-            Self::Shape(..) | Self::ShapeShare(..) | Self::TipLag(_) => Enters::Output,
+            Self::Shape(..) | Self::TipLag(_) => Enters::Output,
         }
     }
 
@@ -135,7 +130,7 @@ impl Parameter {
             Self::GravityCosine => "gravity-cosine".to_owned(),
             Self::CommandLag => "command-lag".to_owned(),
             Self::TipLag(i) => format!("tip-lag-{}", i + 1),
-            Self::Shape(i, j) | Self::ShapeShare(i, j) => format!("shape-{}-{}", i + 1, j + 1),
+            Self::Shape(i, j) => format!("shape-{}-{}", i + 1, j + 1),
         }
     }
 
@@ -158,7 +153,7 @@ impl Parameter {
             Self::GravityCosine => arm.gravity.map_or(0.0, |g| g.cosine_nm),
             Self::CommandLag => arm.command_lag_s,
             Self::TipLag(i) => arm.tip_lags_s.get(i).copied().unwrap_or(0.0),
-            Self::Shape(i, j) | Self::ShapeShare(i, j) => arm.shapes[i][j],
+            Self::Shape(i, j) => arm.shapes[i][j],
         }
     }
 
@@ -188,12 +183,6 @@ impl Parameter {
                 arm.tip_lags_s[i] = value;
             }
             Self::Shape(i, j) => arm.shapes[i][j] = value,
-            Self::ShapeShare(i, j) => {
-                arm.shapes[i][j] = value;
-                if let Some(last) = arm.shapes[i].last_mut() {
-                    *last -= change;
-                }
-            }
         }
     }
 }
@@ -204,19 +193,13 @@ pub fn free_parameters(channels: &Channels, arm: &ModalArm) -> Vec<Parameter> {
     let mut free =
         vec![Parameter::Inertia, Parameter::Viscous, Parameter::Coulomb, Parameter::Offset];
     let modes = arm.modes.len();
-    for j in 0..modes {
-        free.extend([
-            Parameter::Frequency(j),
-            Parameter::Stiffness(j),
-            Parameter::DampingWithin(j),
-        ]);
+    for (j, mode) in arm.modes.iter().enumerate() {
+        free.extend([Parameter::Frequency(j), Parameter::DampingWithin(j)]);
+        // A mode without stiffness is one that only the tips show.
+        free.extend((mode.stiffness_nm_per_rad != 0.0).then_some(Parameter::Stiffness(j)));
     }
-    for (i, tip) in channels.tips.iter().enumerate() {
-        if tip.calibrated {
-            free.extend((0..modes.saturating_sub(1)).map(|j| Parameter::ShapeShare(i, j)));
-        } else {
-            free.extend((0..modes).map(|j| Parameter::Shape(i, j)));
-        }
+    for i in 0..channels.tips.len() {
+        free.extend((0..modes).map(|j| Parameter::Shape(i, j)));
     }
     free.extend(arm.dry_terms.numbers().into_iter().map(Parameter::Friction));
     if arm.gravity.is_some() {

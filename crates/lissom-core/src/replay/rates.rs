@@ -107,16 +107,7 @@ fn entries<N: Number + Lift>(
     let dampers = arm.at_points_per_s.iter().enumerate();
     let dampers: Vec<N> =
         dampers.map(|(i, c)| lift(*c, Parameter::DampingAtPoint(i), 1.0)).collect();
-    let last = arm.modes.len().wrapping_sub(1);
-    let shape = |i: usize, j: usize| {
-        let slope = match variable {
-            Some(Parameter::Shape(k, l)) if (k, l) == (i, j) => 1.0,
-            Some(Parameter::ShapeShare(k, l)) if (k, l) == (i, j) => 1.0,
-            Some(Parameter::ShapeShare(k, _)) if (k, last) == (i, j) => -1.0,
-            _ => 0.0,
-        };
-        N::lift(arm.shapes[i][j], slope)
-    };
+    let shape = |i: usize, j: usize| lift(arm.shapes[i][j], Parameter::Shape(i, j), 1.0);
     let points = (!dampers.is_empty() && dampers.len() == arm.modes.len()).then(|| {
         let n = dampers.len();
         let shapes: Vec<Vec<N>> = (0..n).map(|i| (0..n).map(|j| shape(i, j)).collect()).collect();

@@ -161,7 +161,7 @@ const PARAMETERS: [Parameter; 15] = [
     Parameter::DampingGrounded(1),
     Parameter::DampingAtPoint(0),
     Parameter::Offset,
-    Parameter::ShapeShare(1, 0),
+    Parameter::Shape(1, 0),
 ];
 
 fn derivatives_hold(hold: Hold, quantity: TipQuantity, lag_s: f64) {

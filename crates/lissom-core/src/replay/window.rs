@@ -301,12 +301,10 @@ impl<'a, const D: usize> Replayer<'a, D> {
     /// Derivatives by a tip's shares in the modes; `shown` is what it sees of each.
     fn by_shapes(&self, tip: usize, row: &mut [f64], shown: impl Fn(usize) -> f64) {
         for (index, p) in self.parameters.iter().enumerate() {
-            match *p {
-                Parameter::Shape(i, j) if i == tip => row[index] += shown(j),
-                Parameter::ShapeShare(i, j) if i == tip => {
-                    row[index] += shown(j) - shown(self.arm.shapes[tip].len() - 1);
-                }
-                _ => {}
+            if let Parameter::Shape(i, j) = *p
+                && i == tip
+            {
+                row[index] += shown(j);
             }
         }
     }

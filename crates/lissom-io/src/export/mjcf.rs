@@ -50,7 +50,7 @@ pub fn mjcf_into(
 /// [`ExportError::NoTorque`] if the torque constant is unknown.
 pub fn mjcf(model: &ExportModel) -> Result<String, ExportError> {
     model.needs_torque("MuJoCo")?;
-    let arm = &model.arm;
+    let arm = &model.arm.clone().without_light_modes();
     let (kind, axis) = joint_kind(model);
     let load = Load::of(model);
     let mut lines = Vec::new();

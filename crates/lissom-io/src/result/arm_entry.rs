@@ -214,9 +214,14 @@ impl OscillatorEntry {
         if omega_rad_s <= 0.0 {
             return Err(number.wrong(frequency, "greater than zero"));
         }
+        // Only tips show a mode without stiffness.
+        let stiffness_nm_per_rad = number.sane("stiffness", self.stiffness)?;
+        if stiffness_nm_per_rad < 0.0 {
+            return Err(number.wrong("stiffness", "zero or greater"));
+        }
         Ok(Oscillator {
             omega_rad_s,
-            stiffness_nm_per_rad: number.positive("stiffness", self.stiffness)?,
+            stiffness_nm_per_rad,
             within_per_s: number.sane("damping_within_per_s", self.damping_within_per_s)?,
             grounded_per_s: number.sane("damping_grounded_per_s", self.damping_grounded_per_s)?,
         })

@@ -30,7 +30,7 @@ pub fn found_arm_text(found: &FoundArm, campaign: &Campaign) -> Option<String> {
     }
     let mut text = String::new();
     // Writing to a string does not fail.
-    let _ = put(&mut text, &found.arm, campaign);
+    let _ = put(&mut text, &found.arm.clone().without_light_modes(), campaign);
     Some(text)
 }
 

@@ -96,6 +96,13 @@ pub enum RegressionFinding {
         /// Time and kind of the lag.
         lag: AngleLag,
     },
+    /// A tip is read later than the motor, if viscous friction is not negative.
+    TipReadLate {
+        /// Name of the tip.
+        tip: String,
+        /// The delay \[s\].
+        lag_s: Estimate,
+    },
     /// It is not known whether the command is held between its samples, and estimates depend on it.
     HoldAssumed {
         /// What the other one would change.
@@ -113,6 +120,7 @@ impl RegressionFinding {
             Self::MissingTerm { .. }
                 | Self::HiddenMode { .. }
                 | Self::AngleLag { .. }
+                | Self::TipReadLate { .. }
                 | Self::FrictionVaries { .. }
         )
     }
@@ -239,6 +247,12 @@ impl fmt::Display for RegressionFinding {
                 significant(100.0 * by, 2)
             ),
             Self::AngleLag { lag } => lags(f, lag),
+            Self::TipReadLate { tip, lag_s } => write!(
+                f,
+                "tip {tip} is read {} ms later than the motor, if nothing but load and spring moves it; with its readings as they \
+                 are logged viscous friction is negative. The estimates account for it, the measured frequency responses do not",
+                with_error(lag_s.scaled(1e3))
+            ),
         }
     }
 }
@@ -263,6 +277,7 @@ impl Describe for RegressionFinding {
             | Self::OneSine
             | Self::MissingTerm { .. }
             | Self::AngleLag { .. }
+            | Self::TipReadLate { .. }
             | Self::HoldAssumed { .. } => Severity::Warning,
         }
     }
@@ -277,6 +292,7 @@ impl Describe for RegressionFinding {
                 let joint = [key::COULOMB, key::OFFSET, key::VISCOUS, key::INERTIA];
                 [&joint[..], &[key::GRAVITY, key::COUPLING]].concat()
             }
+            Self::TipReadLate { .. } => vec![key::VISCOUS, key::TIP_RESPONSES],
             // A load may be most of the torque: it moves all.
             Self::MissingTerm { term, .. } if term.kind == MissingKind::Gravity => {
                 vec![key::COULOMB, key::OFFSET, key::VISCOUS, key::INERTIA]
@@ -384,6 +400,10 @@ impl Describe for RegressionFinding {
             Self::AngleLag { .. } => {
                 "log the angle before the drive filters it; near reversals friction may differ from the estimates by more than \
                  their standard errors"
+            }
+            Self::TipReadLate { .. } => {
+                "check for a delay of the bus, camera or filter of this tip. If there is none, the load is damped against the frame, \
+                 and viscous friction is that of both sides"
             }
             Self::HoldAssumed { .. } => {
                 "say how the command was logged: hold = \"sampled\" for a value that the controller sets and holds, hold = \

@@ -1,7 +1,7 @@
 //! Modes of the beam: which method's are taken.
 
 use crate::identify::drive_estimates::{DriveEstimates, Method};
-use crate::identify::estimate::ModeEstimate;
+use crate::identify::estimate::{Estimate, ModeEstimate};
 use crate::identify::findings::{BeamFinding, Finding};
 use crate::identify::identified::BeamEstimates;
 use crate::identify::judge::evidence::{Chosen, Evidence};
@@ -49,11 +49,25 @@ const MODES: [ModesRow; 3] = [
 /// The beam: modes by the table, and the coupling of the drive's solution.
 pub(super) fn choose(evidence: &Evidence<'_>, drive: &DriveEstimates) -> BeamEstimates {
     let offered = |row: &ModesRow| (row.modes)(evidence);
+    let beam = evidence.methods.beam_regression.as_ref().filter(|_| evidence.replay().is_none());
+    let by_motor = beam.and_then(|beam| coupling_by_motor(drive, &beam.shares));
     BeamEstimates {
         modes: MODES.iter().find_map(offered).unwrap_or_default(),
-        coupling: drive.coupling,
+        coupling: by_motor.or(drive.coupling),
         coupling_by_tip: drive.coupling_by_tip.clone(),
     }
+}
+
+/// The torque per angle of the motor with the modes held, Σ κ_i·s_i: κ_i is the torque per angle between motor and tip i, which is
+/// s_i times that between motor and modes.
+fn coupling_by_motor(drive: &DriveEstimates, shares: &[Estimate]) -> Option<Estimate> {
+    let by_tip: Vec<Estimate> = drive.coupling_by_tip.iter().copied().collect::<Option<_>>()?;
+    let coupling = drive.coupling.filter(|_| by_tip.len() == shares.len())?;
+    let both = by_tip.iter().zip(shares);
+    let value: f64 = both.clone().map(|(k, s)| k.value * s.value).sum();
+    let of_shares: f64 = both.map(|(k, s)| (k.value * s.std).powi(2)).sum();
+    let std = (coupling.std * value / coupling.value).hypot(of_shares.sqrt());
+    std.is_finite().then_some(Estimate { value, std })
 }
 
 fn by_output_error(evidence: &Evidence<'_>) -> Option<Vec<ModeEstimate>> {
@@ -111,7 +125,6 @@ fn negative_damping((i, mode): (usize, &ModeEstimate)) -> Option<Finding> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::identify::estimate::Estimate;
     use crate::identify::judge::evidence::Methods;
     use crate::identify::prepare::prepared::Prepared;
     use crate::identify::responses::rational::BeamFit;
@@ -158,6 +171,8 @@ mod tests {
         BeamRegression {
             window_s: vec![0.1],
             relative_residual: vec![relative_residual],
+            shares: vec![Estimate { value: 1.0, std: 0.0 }],
+            lags_s: vec![0.0],
             modes: vec![mode(6.0)],
             candidates: Vec::new(),
             stiffness: nalgebra::DMatrix::zeros(1, 1),

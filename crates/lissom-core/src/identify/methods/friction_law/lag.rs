@@ -1,7 +1,7 @@
 //! Lag of the angle behind the command, as a first-order filter or as a delay.
 
 use crate::identify::thresholds::LAG_HALF_SAMPLE;
-use crate::record::{Campaign, CommandQuantity, Hold, Run};
+use crate::record::{Campaign, CommandQuantity, Hold, Run, shifted};
 
 /// Form of a lag of the logged angle.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -98,17 +98,4 @@ fn filtered(command: &[f64], hold: Hold, samples: f64) -> Vec<f64> {
         }
     }
     out
-}
-
-/// The command of so many samples before, straight between samples.
-fn shifted(command: &[f64], samples: f64) -> Vec<f64> {
-    let last = (command.len() - 1) as f64;
-    let at = |k: usize| {
-        let place = (k as f64 - samples).clamp(0.0, last);
-        let before = place as usize;
-        let share = place - before as f64;
-        let after = (before + 1).min(command.len() - 1);
-        command[before] + share * (command[after] - command[before])
-    };
-    (0..command.len()).map(at).collect()
 }

@@ -12,7 +12,7 @@ use crate::identify::methods::output_error::model::describes::{
 };
 use crate::identify::methods::output_error::thresholds::KNOWS_MORE;
 use crate::record::{Channels, TipQuantity};
-use crate::replay::{DryTerms, FrictionNumber, ModalArm, Parameter};
+use crate::replay::{DryTerms, FrictionNumber, ModalArm, Oscillator, Parameter};
 
 impl OutputError {
     /// Friction, without the damping by the back-EMF of the command. With further terms the line is the law's own Coulomb and
@@ -140,13 +140,16 @@ impl OutputError {
         Some(Gravity::new(sine, cosine, self.covariance[(s, c)]))
     }
 
-    /// Modes with the motor clamped.
+    /// Modes with the motor clamped. One without stiffness is none: it stands for the modes above the others.
     pub fn mode_estimates(&self) -> Vec<ModeEstimate> {
         let mode = |j: usize| ModeEstimate {
             natural_frequency_rad_s: self.estimate_of(|arm| arm.clamped_modes()[j].0),
             damping_ratio: self.estimate_of(|arm| arm.clamped_modes()[j].1),
         };
-        (0..self.arm.modes.len()).map(mode).collect()
+        let mut ascending: Vec<&Oscillator> = self.arm.modes.iter().collect();
+        ascending.sort_by(|a, b| a.omega_rad_s.total_cmp(&b.omega_rad_s));
+        let of_beam = |j: &usize| ascending[*j].stiffness_nm_per_rad > 0.0;
+        (0..ascending.len()).filter(of_beam).map(mode).collect()
     }
 
     /// Whether the arm is accepted and describes whole runs: in one window each, or in the longest windows over which
@@ -162,7 +165,7 @@ impl OutputError {
 
     /// Whether the axis is rigid: an arm without modes describes whole runs to the sensors' noise.
     pub fn is_rigid(&self) -> bool {
-        self.describes_whole_runs() && self.arm.modes.is_empty() && !is_left(&self.left_over)
+        self.describes_whole_runs() && self.arm.modes.is_empty() && !is_left(&self.left_over, 0.0)
     }
 
     /// Whether the arm is accepted. If whole runs are replayed, its residual may be at most a few times the
@@ -173,7 +176,7 @@ impl OutputError {
         self.beyond_noise < self.accepted_residual
             && is_sound(&self.arm, &self.covariance)
             && self.sees_modes
-            && (self.command_noise == 0.0 || !is_left(&self.left_over))
+            && (self.command_noise == 0.0 || !is_left(&self.left_over, self.command_noise))
     }
 
     /// The same beside the regression: over short windows more is accepted where its equation lacks a term, and nothing where

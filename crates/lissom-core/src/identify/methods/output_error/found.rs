@@ -156,6 +156,8 @@ pub struct OutputErrorStart {
     pub most_evaluations: u64,
     /// Ends the search early, with the best result so far.
     pub interrupt: Interrupt,
+    /// Modes that the responses of the tips show \[rad/s\]; the arm gets further modes there, if the fit is better with them.
+    pub shown_rad_s: Vec<f64>,
     /// Terms of friction that slip phases hardly show. They are tried if the residual is above the noise.
     pub further_terms: Vec<LawTerm>,
 }

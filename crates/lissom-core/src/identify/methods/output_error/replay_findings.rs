@@ -115,7 +115,7 @@ fn lawful(evidence: &Evidence<'_>) -> bool {
 
 /// Whole runs are described, but the residual is larger than the sensors' noise explains.
 fn more_than_noise(campaign: &Campaign, oe: &OutputError) -> Option<Finding> {
-    if !oe.whole_runs || !is_left(&oe.left_over) {
+    if !oe.whole_runs || !is_left(&oe.left_over, 0.0) {
         return None;
     }
     let (channel, share) = oe.left_over.iter().enumerate().max_by(|a, b| a.1.total_cmp(b.1))?;

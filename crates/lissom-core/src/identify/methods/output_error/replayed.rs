@@ -40,6 +40,7 @@ pub fn output_error(prepared: &Prepared<'_>, start: &OutputErrorStart) -> Option
         masks: &masks,
         blocks: &blocks,
         further_terms: &start.further_terms,
+        shown_rad_s: &start.shown_rad_s,
         noise: &noise,
         command_noise_most: command_noise::most(campaign, inertia),
         budget: &budget,

@@ -7,6 +7,7 @@
 //! 4. Choice of modes, dampers and point masses ([`settle`]); sensors' steps are counted as steps.
 //! 5. A slower repetition if the search may have ended in a wrong minimum ([`again`]).
 
+use crate::identify::methods::output_error::engine::coordinates::Body;
 use crate::identify::methods::output_error::engine::data::Masks;
 use crate::identify::methods::output_error::engine::windows::widen as widened;
 use crate::identify::methods::output_error::found::OutputErrorStart;
@@ -37,7 +38,7 @@ pub(super) struct Attempt {
 }
 
 /// The first attempt that describes the runs; if none does, the closest one. It is repeated with slower widening, and
-/// from other frequencies of the highest mode, if it may have ended in a wrong minimum.
+/// from other frequencies of the highest mode, if it ended in a wrong minimum.
 pub(super) fn best(fitting: &Fitting<'_>, start: &OutputErrorStart) -> Option<Attempt> {
     let mut best: Option<Attempt> = None;
     for arm in likely_first(fitting, start) {
@@ -108,7 +109,8 @@ fn attempt(fitting: &Fitting<'_>, arm: &ModalArm, first_window_s: Option<f64>) -
     Some(go_on(fitting, fit, report))
 }
 
-/// Searches on the first windows, which are short; `None` if no window can be cut.
+/// Searches on the first windows, which are short, with point masses at the tips where these are possible, and with free modes if
+/// that is better; `None` if no window can be cut.
 fn begin(
     fitting: &Fitting<'_>,
     arm: &ModalArm,
@@ -116,25 +118,24 @@ fn begin(
     report: &mut Report,
 ) -> Option<ArmFit> {
     let mut fit = fitting.first_fit(arm, window_s)?;
+    let mut free = ArmFit { body: Body::free(arm.clone()), ..fit.clone() };
     fitting.search(&mut fit, report);
+    if fit.body.masses.is_some() {
+        fitting.search(&mut free, report);
+        if fitting.is_better(&free, &fit) {
+            fit = free;
+        }
+    }
     make(complete, fitting, &mut fit, report);
     Some(fit)
 }
 
-/// Adds what the residual shows: modes and then further parameters; to a rigid axis, whose modes no tip shows, further
-/// parameters first, since a lag is simpler than a mode.
+/// Adds what the residual shows: as many modes as tips, then lags and kinds of damping, which are simpler than the further modes
+/// that follow, and last terms of friction.
 fn complete(fitting: &Fitting<'_>, fit: &mut ArmFit, report: &mut Report) {
-    if fit.body.arm.modes.is_empty() {
-        make(extend, fitting, fit, report);
-        make(modes::grow, fitting, fit, report);
-        if fit.body.arm.modes.is_empty() {
-            make(add_terms, fitting, fit, report);
-            return;
-        }
-    } else {
-        make(modes::grow, fitting, fit, report);
-    }
+    make(modes::grow_to_tips, fitting, fit, report);
     make(extend, fitting, fit, report);
+    make(modes::grow, fitting, fit, report);
     make(add_terms, fitting, fit, report);
 }
 
@@ -190,8 +191,10 @@ fn widen(fitting: &Fitting<'_>, fit: &mut ArmFit, report: &mut Report) {
 /// Continues to whole runs and the sensors' steps.
 fn go_on(fitting: &Fitting<'_>, mut fit: ArmFit, mut report: Report) -> Attempt {
     make(widen, fitting, &mut fit, &mut report);
+    make(modes::drop_impossible, fitting, &mut fit, &mut report);
     make(modes::grow, fitting, &mut fit, &mut report);
     make(modes::drop_impossible, fitting, &mut fit, &mut report);
+    make(modes::lighten, fitting, &mut fit, &mut report);
     make(settle, fitting, &mut fit, &mut report);
     let without_repeats = fitting.count_steps(&mut fit, &mut report);
     let left = left_over(fitting.campaign, &fit, fitting.masks);
@@ -223,13 +226,14 @@ fn settle(fitting: &Fitting<'_>, fit: &mut ArmFit, report: &mut Report) {
     make(drop_lags, fitting, fit, report);
 }
 
-/// Repeats the search with slower widening, if it may have ended in a wrong minimum: the residual is above the noise,
-/// or the highest mode is so faint that a wrong frequency would leave hardly more. Returns the best result.
+/// Repeats the search with slower widening, if it ended in a wrong minimum: the residual is above the noise. Returns the best
+/// result.
 fn again(fitting: &Fitting<'_>, first: Attempt, first_window_s: Option<f64>) -> Attempt {
     let mut best = first;
-    let caught = is_left(&best.left);
-    let faint = || modes::highest_is_faint(fitting, &best.fit);
-    if fitting.budget.is_spent() || !best.fit.whole_runs || !(caught || faint()) {
+    if fitting.budget.is_spent()
+        || !best.fit.whole_runs
+        || !is_left(&best.left, best.fit.command_noise)
+    {
         return best;
     }
     let slowly = Fitting { widening: WINDOW_WIDENING_SLOW, ..*fitting };
@@ -238,7 +242,7 @@ fn again(fitting: &Fitting<'_>, first: Attempt, first_window_s: Option<f64>) -> 
         if other.fit.whole_runs && best.is_worse(fitting, &other) {
             best = other;
         }
-        if fitting.budget.is_spent() || (caught && !is_left(&best.left)) {
+        if fitting.budget.is_spent() || !is_left(&best.left, best.fit.command_noise) {
             break;
         }
     }

@@ -27,6 +27,9 @@ thresholds! {
         /// above which the arm lacks an effect: the search is repeated from other frequencies, and
         /// the share is reported.
         SLOW_RESIDUAL: f64 = 0.003, "1", Convention;
+        /// As `SLOW_RESIDUAL`, where noise of the command is estimated from the residual: the arm is refused above it, because
+        /// what it lacks may have been taken for noise.
+        SLOW_INNOVATIONS: f64 = 0.05, "1", Convention;
         /// Windows are not lengthened further if a residual is larger than on the first windows by
         /// this factor. Errors of the arm add up over a window, but noise does not.
         RESIDUAL_GROWN: f64 = 1.5, "1", Convention;
@@ -91,7 +94,8 @@ thresholds! {
         LAST_STEPS_MOST: usize = 40, "steps", Convention;
         /// Number of steps of a short search that compares starting points.
         PROBE_STEPS: usize = 8, "steps", Convention;
-        /// Approximate number of samples that a short search simulates.
+        /// Approximate number of samples that a short search simulates; a third where innovations
+        /// are computed, which take three times as long.
         PROBE_SAMPLES: usize = 15_000, "samples", Convention;
         /// The last search ends if a step is expected to reduce the cost, a sum of squares in
         /// standard deviations of the noise, by less than this. A parameter would then change by a
@@ -148,7 +152,12 @@ thresholds! {
         CRITICAL_DAMPING: f64 = 1.0, "1", Derived;
         /// Initial frequencies of a mode above all others, as multiples of the highest frequency;
         /// they are tried in turn.
-        NEW_MODE_FREQUENCIES: [f64; 2] = [2.0, 4.0], "1", Convention;
+        NEW_MODE_FREQUENCIES: [f64; 4] = [2.0, 4.0, 7.0, 14.0], "1", Convention;
+        /// A mode above all others has at least this many times their frequency: two modes side by
+        /// side are one, twice.
+        NEW_MODE_ABOVE: f64 = 1.2, "1", Convention;
+        /// Number of starts of a new mode, the likeliest first, that are searched to the end.
+        NEW_MODE_STARTS: usize = 2, "starts", Convention;
         /// Initial share of the highest mode's stiffness and shape that a mode above it takes.
         NEW_MODE_SHARE: f64 = 0.25, "1", Convention;
         /// Initial damping ratio of a mode above all others. Its frequency is uncertain at first,

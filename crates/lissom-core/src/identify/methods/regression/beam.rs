@@ -7,19 +7,16 @@ use rayon::iter::{IndexedParallelIterator, IntoParallelRefIterator, ParallelIter
 
 use crate::eigenvalues::eigenvalues;
 use crate::identify::estimate::{Estimate, ModeEstimate};
-use crate::identify::methods::regression::motor_rows::behind;
+use crate::identify::methods::regression::motor_rows::{SineAndCosine, behind};
 use crate::identify::methods::regression::normal::{Cluster, Rows, Term, solve};
 use crate::identify::methods::regression::row_noise::{ChannelPart, products};
 use crate::identify::methods::regression::scan::{Candidate, Scan, scan};
 use crate::identify::methods::regression::thresholds::WINDOW_SYSTEMATIC;
-use crate::identify::methods::regression::window::{WINDOW_STEP, Weights, Window};
+use crate::identify::methods::regression::window::{Weights, Window};
 use crate::identify::prepare::prepared::Prepared;
 use crate::identify::prepare::run_noise::RunNoise;
 use crate::identify::thresholds::CLEARLY_PRESENT;
-use crate::record::{Campaign, Run, TipQuantity};
-
-/// Windows in a block that the covariance takes as one.
-const BLOCK: usize = 40;
+use crate::record::{Axis, Campaign, Run, TipQuantity};
 
 /// Estimates from the beam's own equation.
 #[derive(Debug, Clone, PartialEq)]
@@ -34,10 +31,17 @@ pub struct BeamRegression {
     pub modes: Vec<ModeEstimate>,
     /// −Â, tips × tips \[1/s²\].
     pub stiffness: DMatrix<f64>,
+    /// Sum of the shares of each tip in the modes, 1 − b̂_i: one where the tips show all modes \[1\].
+    pub shares: Vec<Estimate>,
+    /// Time by which each tip is read later than the motor, as far as damping cannot explain it \[s\].
+    pub lags_s: Vec<f64>,
 }
 
-/// Fits `θ̈_i = Σ_j â_ij(θ_j − θ_m) − e_i·θ̇_i − d_i·(θ̇_i − θ̇_m) + const` to each tip over all runs, sticking or not,
-/// and computes the modes from Â. e_i is damping against the fixed frame and d_i damping within the beam \[1/s\].
+/// Fits `θ̈_i = Σ_l â_il(θ_l − θ_m) − Σ_l d_il(θ̇_l − θ̇_m) − e_i·θ̇_i + b̂_i·θ̈_m + g_i·sin θ_m + h_i·cos θ_m + const` to each tip
+/// over all runs, sticking or not, and computes the modes from Â and the damping. d_il is damping within the beam and e_i against
+/// the fixed frame \[1/s\]; b̂_i \[1\] is what the tip follows of the motor by modes above those of the tips; g_i and h_i \[1/s²\]
+/// are gravity. b̂_i, gravity, and d of a single tip are used where they are clearly present: of several tips each mode has a
+/// damping ratio of its own.
 ///
 /// There are as many modes as tips. `None` if a tip is not a calibrated angle or deflection, if there are too few
 /// windows, or if the natural frequencies of Â are not all real and positive.
@@ -73,32 +77,33 @@ pub fn beam_regression(prepared: &Prepared<'_>) -> Option<BeamRegression> {
 
 fn on_windows(campaign: &Campaign, noise: &[RunNoise]) -> Option<BeamRegression> {
     let n = campaign.channels.tips.len();
-    // Columns: ∫w(θ_m − θ_j) for each j, ∫ẇθ_i, ∫ẇ(θ_i − θ_m), ∫w, then the right side ∫ẅθ_i.
-    let grounded: Vec<Term> = (0..=n).chain([n + 2]).map(Term::Plain).collect();
-    let both: Vec<Term> = (0..n + 3).map(Term::Plain).collect();
     let sample_time = campaign.runs.iter().map(Run::sample_time_s).fold(0.0, f64::max);
-    let scans: Vec<Scan> = (0..n)
-        .map(|i| {
-            let scanned = |terms: &[Term]| {
-                let counts: Vec<bool> = (0..terms.len()).map(|k| k < n).collect();
-                scan(sample_time, &[], &counts, |length| {
-                    solve(&clusters(campaign, noise, i, length), terms)
-                })
-            };
-            // Damping within the beam is a term of its own only where the motion shows it.
-            scanned(&both).filter(|s| within(s, n).is_some()).or_else(|| scanned(&grounded))
-        })
-        .collect::<Option<_>>()?;
-    let stiffness = DMatrix::from_fn(n, n, |i, j| scans[i].solution.value[j]);
+    let waves: Vec<SineAndCosine> =
+        campaign.runs.iter().map(|run| SineAndCosine::of(run.motor())).collect();
+    let data = (campaign, noise, waves.as_slice());
+    let fits: Vec<TipFit> =
+        (0..n).map(|i| TipFit::of(data, i, sample_time)).collect::<Option<_>>()?;
+    let stiffness = DMatrix::from_fn(n, n, |i, j| fits[i].scan.solution.value[j]);
+    let value = |fit: &TipFit, column| fit.estimate(column).map_or(0.0, |e| e.value);
     // With the motor clamped both kinds of damping are one.
-    let damping: Vec<f64> =
-        scans.iter().map(|s| s.solution.value[n] + within(s, n).unwrap_or_default()).collect();
+    let damping = DMatrix::from_fn(n, n, |i, j| {
+        let against_frame = if i == j { value(&fits[i], frame(n)) } else { 0.0 };
+        value(&fits[i], n + j) + against_frame
+    });
     let modes = modes(&stiffness, &damping)?;
-    let std = standard_errors(&scans, &stiffness, &damping, &modes)?;
+    let whole = Estimate { value: 1.0, std: 0.0 };
+    let shares = fits.iter().map(|f| {
+        let follows = f.estimate(follows(n));
+        follows.map_or(whole, |e| Estimate { value: 1.0 - e.value, ..e })
+    });
+    let shares = shares.collect();
+    let lag_s = |(i, fit): (usize, &TipFit)| fit.of_lag(i, n) / stiffness.row(i).sum();
+    let lags_s = fits.iter().enumerate().map(lag_s).collect();
+    let std = standard_errors(&fits, &stiffness, &damping, &modes)?;
     let chosen = |s: &Scan| s.candidates[s.chosen].clone();
     Some(BeamRegression {
-        window_s: scans.iter().map(|s| chosen(s).window_s).collect(),
-        relative_residual: scans.iter().map(|s| chosen(s).relative_residual).collect(),
+        window_s: fits.iter().map(|f| chosen(&f.scan).window_s).collect(),
+        relative_residual: fits.iter().map(|f| chosen(&f.scan).relative_residual).collect(),
         modes: modes
             .iter()
             .zip(std)
@@ -107,30 +112,103 @@ fn on_windows(campaign: &Campaign, noise: &[RunNoise]) -> Option<BeamRegression>
                 damping_ratio: Estimate { value: m.1, std: s.1 },
             })
             .collect(),
-        candidates: scans.into_iter().map(|s| s.candidates).collect(),
+        candidates: fits.into_iter().map(|f| f.scan.candidates).collect(),
         stiffness,
+        shares,
+        lags_s,
     })
 }
 
-/// Coefficient of the damping within the beam of `n` tips, where it is clearly present.
-fn within(scan: &Scan, n: usize) -> Option<f64> {
-    let (solution, at) = (&scan.solution, n + 1);
-    if solution.value.len() < n + 3 || solution.inseparable[at] {
-        return None;
+/// The fit of one tip's equation.
+struct TipFit {
+    /// Columns of [`BeamEquation`] that it has.
+    columns: Vec<usize>,
+    scan: Scan,
+}
+
+/// Runs, the noise of their sensors, and what gravity follows in each.
+type Data<'a> = (&'a Campaign, &'a [RunNoise], &'a [SineAndCosine]);
+
+impl TipFit {
+    /// Damping within the beam of a single tip, what the tip follows by higher modes, and gravity are terms only where the motion
+    /// shows them.
+    fn of(data: Data<'_>, i: usize, sample_time_s: f64) -> Option<Self> {
+        let channels = &data.0.channels;
+        let n = channels.tips.len();
+        let fitted = |columns: Vec<usize>| {
+            let terms: Vec<Term> = columns.iter().copied().map(Term::Plain).collect();
+            let counts: Vec<bool> = columns.iter().map(|column| *column < n).collect();
+            let scan = scan(sample_time_s, &[], &counts, |length| {
+                solve(&clusters(data, i, length), &terms)
+            });
+            Some(Self { columns, scan: scan? })
+        };
+        let shown = |all: &Self, column: usize| {
+            all.estimate(column).is_some_and(|e| e.value.abs() > CLEARLY_PRESENT * e.std)
+        };
+        let without = 0..gravity(n)[0];
+        let hangs = |all: &Self| gravity(n).iter().any(|column| shown(all, *column));
+        let rotary = channels.axis == Axis::Rotary;
+        let all = rotary.then(|| fitted((0..columns(n)).collect())).flatten().filter(hangs);
+        let all = all.or_else(|| fitted(without.clone().collect()));
+        let Some(all) = all else {
+            return fitted((0..n).chain([frame(n), frame(n) + 1]).collect());
+        };
+        let is_shown = |column: &usize| {
+            let within = (n..2 * n).contains(column) && n > 1;
+            let sought = (n..2 * n).contains(column) || *column == follows(n);
+            within || !sought || shown(&all, *column)
+        };
+        let kept: Vec<usize> = all.columns.iter().copied().filter(is_shown).collect();
+        if kept.len() == all.columns.len() { Some(all) } else { fitted(kept) }
     }
-    let value = solution.value[at];
-    (value.abs() > CLEARLY_PRESENT * solution.covariance[(at, at)].max(0.0).sqrt()).then_some(value)
+
+    /// Damping of tip `i` against the frame that must be a lag \[1/s\]: a lag takes as much from the damping within the beam, and
+    /// that cannot be less than none.
+    fn of_lag(&self, i: usize, tips: usize) -> f64 {
+        let [frame, within] = [frame(tips), tips + i].map(|column| self.estimate(column));
+        let drives = within.is_some_and(|d| d.value < -CLEARLY_PRESENT * d.std);
+        let damped = frame.filter(|e| drives && e.value > CLEARLY_PRESENT * e.std);
+        damped.map_or(0.0, |e| e.value)
+    }
+
+    /// Coefficient of a column; `None` where the equation does not have it, or the rows do not separate it.
+    fn estimate(&self, column: usize) -> Option<Estimate> {
+        let at = self.columns.iter().position(|c| *c == column)?;
+        let solution = &self.scan.solution;
+        let std = solution.covariance[(at, at)].max(0.0).sqrt();
+        (!solution.inseparable[at]).then(|| Estimate { value: solution.value[at], std })
+    }
+}
+
+/// Column of damping against the frame, before that of the constant.
+fn frame(tips: usize) -> usize {
+    2 * tips
+}
+
+/// Column of what the tip follows by higher modes.
+fn follows(tips: usize) -> usize {
+    2 * tips + 2
+}
+
+/// Columns of gravity.
+fn gravity(tips: usize) -> [usize; 2] {
+    [2 * tips + 3, 2 * tips + 4]
+}
+
+/// Number of columns; the right side is after them.
+fn columns(tips: usize) -> usize {
+    2 * tips + 5
 }
 
 /// Natural frequency and damping ratio of each mode of `θ̈ = −K·δ − D·θ̇`, ascending.
-fn modes(stiffness: &DMatrix<f64>, damping: &[f64]) -> Option<Vec<(f64, f64)>> {
+fn modes(stiffness: &DMatrix<f64>, damping: &DMatrix<f64>) -> Option<Vec<(f64, f64)>> {
     let n = stiffness.nrows();
     // Undamped squares and damped poles both from eigenvalues: n is the number of tips.
     let state = DMatrix::from_fn(2 * n, 2 * n, |i, j| match (i < n, j < n) {
-        (true, false) => f64::from(j - n == i),
+        (true, _) => f64::from(j == i + n),
         (false, true) => -stiffness[(i - n, j)],
-        (false, false) if i == j => -damping[i - n],
-        _ => 0.0,
+        (false, false) => -damping[(i - n, j - n)],
     });
     let mut poles: Vec<_> = eigenvalues(&state)?.into_iter().filter(|p| p.im > 0.0).collect();
     if poles.len() != n {
@@ -142,37 +220,35 @@ fn modes(stiffness: &DMatrix<f64>, damping: &[f64]) -> Option<Vec<(f64, f64)>> {
 
 /// First-order standard errors of the modes from those of the regression, by finite differences.
 fn standard_errors(
-    scans: &[Scan],
+    fits: &[TipFit],
     stiffness: &DMatrix<f64>,
-    damping: &[f64],
+    damping: &DMatrix<f64>,
     at: &[(f64, f64)],
 ) -> Option<Vec<(f64, f64)>> {
-    let n = scans.len();
+    let n = stiffness.nrows();
     let mut variance = vec![(0.0, 0.0); n];
-    for (i, scan) in scans.iter().enumerate() {
-        // Gradient of every mode with respect to row i's parameters â_i1..â_in, e_i.
-        let gradients: Vec<Vec<(f64, f64)>> = (0..=n)
-            .map(|j| {
-                let (mut k, mut d) = (stiffness.clone(), damping.to_vec());
-                let step = 1e-5 * stiffness[(i, i)].abs().max(1e-12);
-                let step = if j < n { step } else { step.sqrt() * 1e-2 };
-                if j < n {
-                    k[(i, j)] += step;
-                } else {
-                    d[i] += step;
-                }
+    for (i, TipFit { columns, scan }) in fits.iter().enumerate() {
+        let step = 1e-5 * stiffness[(i, i)].abs().max(1e-12);
+        // Gradient of every mode with respect to row i's parameters â_il and d_il.
+        let gradients: Vec<Vec<(f64, f64)>> = (0..2 * n)
+            .map(|column| {
+                let (mut k, mut d) = (stiffness.clone(), damping.clone());
+                let step = if column < n { step } else { step.sqrt() * 1e-2 };
+                let of_row = if column < n { &mut k } else { &mut d };
+                of_row[(i, column % n)] += step;
                 let moved = modes(&k, &d)?;
-                Some(
-                    moved
-                        .iter()
-                        .zip(at)
-                        .map(|(m, a)| ((m.0 - a.0) / step, (m.1 - a.1) / step))
-                        .collect(),
-                )
+                let by =
+                    |(m, a): (&(f64, f64), &(f64, f64))| ((m.0 - a.0) / step, (m.1 - a.1) / step);
+                Some(moved.iter().zip(at).map(by).collect())
             })
             .collect::<Option<_>>()?;
-        let again = gradients.last().filter(|_| within(scan, n).is_some());
-        let gradients: Vec<_> = gradients.iter().chain(again).collect();
+        let constant = vec![(0.0, 0.0); n];
+        let of_column = |column: &usize| match *column {
+            within if within < 2 * n => &gradients[within],
+            against if against == frame(n) => &gradients[n + i],
+            _ => &constant,
+        };
+        let gradients: Vec<_> = columns.iter().map(of_column).collect();
         let covariance = &scan.solution.covariance;
         for (mode, total) in variance.iter_mut().enumerate() {
             let mut systematic = (0.0, 0.0);
@@ -192,29 +268,22 @@ fn standard_errors(
 }
 
 /// Sums of blocks of windows over every run, for tip `i`.
-fn clusters(campaign: &Campaign, noise: &[RunNoise], i: usize, length_s: f64) -> Vec<Cluster> {
-    let columns = campaign.channels.tips.len() + 4;
+fn clusters((campaign, noise, waves): Data<'_>, i: usize, length_s: f64) -> Vec<Cluster> {
     let windows = Window::of_runs(&campaign.runs, length_s, |_, _| true);
     let of_run = |(index, window): (usize, &Option<Arc<Window>>)| {
         let (Some(window), run) = (window, &campaign.runs[index]) else { return Vec::new() };
-        let step = ((window.len() as f64 * WINDOW_STEP) as usize).max(1);
-        let equation = BeamEquation { campaign, run, tip: i, window };
+        let equation = BeamEquation { campaign, run, waves: &waves[index], tip: i, window };
         let noise = equation.noise(&noise[index]);
-        let starts: Vec<usize> = (0..run.len() - window.len()).step_by(step).collect();
-        let cluster = |block: &[usize]| {
-            let mut cluster = Cluster::new(index, 0.0, columns);
-            cluster.add_windows(block.iter().copied(), &equation, &noise);
-            cluster
-        };
-        starts.chunks(BLOCK).map(cluster).collect()
+        Cluster::blocks(index, run.len(), window, (&equation, &noise))
     };
     windows.par_iter().enumerate().flat_map_iter(of_run).collect()
 }
 
-/// `[∫w(θ_m − θ_j).., ∫ẇθ_i, ∫ẇ(θ_i − θ_m), ∫w, ∫ẅθ_i]`, scaled by the noise that it carries.
+/// `[∫w(θ_m − θ_l).., ∫ẇ(θ_l − θ_m).., ∫ẇθ_i, ∫w, ∫ẅθ_m, ∫w·sin θ_m, ∫w·cos θ_m, ∫ẅθ_i]`, scaled by the noise that it carries.
 struct BeamEquation<'a> {
     campaign: &'a Campaign,
     run: &'a Run,
+    waves: &'a SineAndCosine,
     tip: usize,
     window: &'a Window,
 }
@@ -222,14 +291,16 @@ struct BeamEquation<'a> {
 impl Rows for BeamEquation<'_> {
     #[inline(always)]
     fn fill(&self, k: usize, row: &mut Vec<f64>) {
-        let Self { campaign, run, window, .. } = *self;
+        let Self { campaign, run, waves: SineAndCosine(waves), window, .. } = *self;
         row.clear();
-        for j in 0..run.tips().len() {
-            row.push(behind(campaign, run, j, window, k));
-        }
+        let tips = 0..run.tips().len();
+        row.extend(tips.clone().map(|l| behind(campaign, run, l, window, k)));
+        row.extend(tips.map(|l| self.bent(l, &window.first, k)));
         row.push(self.own(&window.first, k));
-        row.push(self.bent(&window.first, k));
         row.push(window.area);
+        let motor = &run.motor()[k..];
+        row.push(run.sample_time_s() * window.second.dot_from(motor, motor[0]));
+        row.extend(waves.iter().map(|wave| window.value.dot(&wave[k..]) * run.sample_time_s()));
         row.push(self.own(&window.second, k));
         for value in row {
             *value *= window.row_scale;
@@ -243,36 +314,34 @@ impl BeamEquation<'_> {
         let window = self.window;
         let tips = &self.campaign.channels.tips;
         let (n, own) = (tips.len(), self.tip);
-        let deflection = |j: usize| tips[j].quantity == TipQuantity::Deflection;
-        let mut of_motor: Vec<ChannelPart<'_>> = Vec::new();
+        let deflection = |l: usize| tips[l].quantity == TipQuantity::Deflection;
+        let mut of_motor: Vec<ChannelPart<'_>> = vec![(follows(n), &window.second, 1.0)];
         let mut of_tips: Vec<Vec<ChannelPart<'_>>> = vec![Vec::new(); n];
-        for (j, of_tip) in of_tips.iter_mut().enumerate() {
-            of_tip.push((j, &window.value, -1.0));
-            if !deflection(j) {
-                of_motor.push((j, &window.value, 1.0));
+        for (l, of_tip) in of_tips.iter_mut().enumerate() {
+            of_tip.push((l, &window.value, -1.0));
+            of_tip.push((n + l, &window.first, 1.0));
+            if !deflection(l) {
+                of_motor.push((l, &window.value, 1.0));
+                of_motor.push((n + l, &window.first, -1.0));
             }
         }
-        of_tips[own].push((n + 1, &window.first, 1.0));
-        if !deflection(own) {
-            of_motor.push((n + 1, &window.first, -1.0));
-        }
-        for (column, weight) in [(n, &window.first), (n + 3, &window.second)] {
+        for (column, weight) in [(frame(n), &window.first), (columns(n), &window.second)] {
             of_tips[own].push((column, weight, 1.0));
             if deflection(own) {
                 of_motor.push((column, weight, 1.0));
             }
         }
         let of_tips = of_run.tips.iter().copied().zip(of_tips);
-        let noise = products(n + 4, of_tips.chain([(of_run.motor, of_motor)]));
+        let noise = products(columns(n) + 1, of_tips.chain([(of_run.motor, of_motor)]));
         noise * (self.run.sample_time_s() * window.row_scale).powi(2)
     }
 
-    /// ∫weight·(θ_i − θ_m).
+    /// ∫weight·(θ_l − θ_m).
     #[inline(always)]
-    fn bent(&self, weight: &Weights, k: usize) -> f64 {
-        let (motor, tip) = (&self.run.motor()[k..], &self.run.tips()[self.tip][k..]);
+    fn bent(&self, l: usize, weight: &Weights, k: usize) -> f64 {
+        let (motor, tip) = (&self.run.motor()[k..], &self.run.tips()[l][k..]);
         self.run.sample_time_s()
-            * match self.campaign.channels.tips[self.tip].quantity {
+            * match self.campaign.channels.tips[l].quantity {
                 TipQuantity::Deflection => weight.dot(tip),
                 _ => weight.dot_difference(tip, motor),
             }

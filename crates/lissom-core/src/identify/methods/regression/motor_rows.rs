@@ -208,7 +208,7 @@ impl<'a> Slipping<'a> {
 
 /// Sine and cosine of the motor's angle at every sample: what gravity follows.
 #[derive(Debug)]
-pub(crate) struct SineAndCosine([Vec<f64>; 2]);
+pub(crate) struct SineAndCosine(pub(super) [Vec<f64>; 2]);
 
 impl SineAndCosine {
     pub(crate) fn of(motor: &[f64]) -> Self {

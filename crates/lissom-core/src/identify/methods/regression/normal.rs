@@ -6,7 +6,10 @@ use crate::identify::methods::regression::cluster_covariance::{larger, of_few, s
 use crate::identify::methods::regression::thresholds::{
     FEW_CLUSTERS, INSEPARABLE_WEIGHT, MOTION_LEAST, NOISE_FILLS, SAME_COLUMN,
 };
+use crate::identify::methods::regression::window::{WINDOW_STEP, Window};
 
+/// Windows in a block of [`Cluster::blocks`].
+const WINDOWS_IN_BLOCK: usize = 40;
 /// Smallest pivot of scaled normal equations that a Cholesky factor is trusted with.
 const PIVOT_LEAST: f64 = 1e-4;
 
@@ -54,6 +57,23 @@ impl Cluster {
     pub(crate) fn new(run: usize, sign: f64, columns: usize) -> Self {
         let zeros = DMatrix::zeros(columns, columns);
         Self { run, sign, rows: 0, noise: zeros.clone(), products: zeros }
+    }
+
+    /// Rows of windows all along a run of so many samples, whether it sticks or not, in blocks that the covariance takes as one.
+    pub(super) fn blocks(
+        run: usize,
+        samples: usize,
+        window: &Window,
+        (equation, noise): (&impl Rows, &DMatrix<f64>),
+    ) -> Vec<Self> {
+        let step = ((window.len() as f64 * WINDOW_STEP) as usize).max(1);
+        let starts: Vec<usize> = (0..samples - window.len()).step_by(step).collect();
+        let block = |starts: &[usize]| {
+            let mut block = Self::new(run, 0.0, noise.ncols());
+            block.add_windows(starts.iter().copied(), equation, noise);
+            block
+        };
+        starts.chunks(WINDOWS_IN_BLOCK).map(block).collect()
     }
 
     /// Adds the rows of windows from `starts` on, to each of whose products the sensors' noise adds `noise`.

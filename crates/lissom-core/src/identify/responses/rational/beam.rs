@@ -322,6 +322,11 @@ impl LeastSquaresProblem<f64, Dyn, Dyn> for BeamProblem<'_> {
 }
 
 impl BeamFit {
+    /// Natural frequencies of its modes \[rad/s\].
+    pub(crate) fn frequencies_rad_s(&self) -> Vec<f64> {
+        self.modes.iter().map(|mode| mode.natural_frequency_rad_s.value).collect()
+    }
+
     /// The model of one tip and one mode: `ω²/(s² + 2ζω·s + ω²)`, as (36).
     pub(crate) fn of_mode(mode: ModeEstimate) -> Self {
         let omega = mode.natural_frequency_rad_s;

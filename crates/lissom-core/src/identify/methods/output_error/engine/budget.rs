@@ -4,10 +4,14 @@ use std::sync::atomic::{AtomicU64, Ordering};
 
 use crate::identify::interrupt::Interrupt;
 
+/// Evaluations of a sample whose residual is filtered.
+const FILTERED: u64 = 3;
+
 /// Evaluations that a fit has made, the most that it may make, and whether somebody asks it to end.
 ///
 /// One evaluation is one sample of a log replayed, or the derivative of one by one parameter: a replay of n samples with
-/// derivatives by p parameters is n·(1 + p) of them.
+/// derivatives by p parameters is n·(1 + p) of them, and [`FILTERED`] times as many where its residuals are filtered for noise of
+/// the command, which takes so much longer.
 #[derive(Debug)]
 pub(crate) struct Budget {
     spent: AtomicU64,
@@ -20,9 +24,10 @@ impl Budget {
         Self { spent: AtomicU64::new(0), most, interrupt }
     }
 
-    /// Counts a replay of so many samples with derivatives by so many parameters.
-    pub(crate) fn count(&self, samples: usize, parameters: usize) {
-        let evaluations = samples as u64 * (1 + parameters as u64);
+    /// Counts a replay of so many samples with derivatives by so many parameters, filtered or not.
+    pub(crate) fn count(&self, samples: usize, parameters: usize, filtered: bool) {
+        let each = if filtered { FILTERED } else { 1 };
+        let evaluations = each * samples as u64 * (1 + parameters as u64);
         self.spent.fetch_add(evaluations, Ordering::Relaxed);
         self.interrupt.count(evaluations);
     }

@@ -126,9 +126,7 @@ impl Body {
                         found[(row, c)] = match *p {
                             Parameter::Frequency(j) => by.omega[j],
                             Parameter::Stiffness(j) => by.stiffness[j],
-                            Parameter::Shape(i, j) | Parameter::ShapeShare(i, j) => {
-                                by.shapes[(i, j)]
-                            }
+                            Parameter::Shape(i, j) => by.shapes[(i, j)],
                             _ => 0.0,
                         };
                     }
@@ -141,13 +139,7 @@ impl Body {
 
 /// Whether point masses determine this parameter.
 fn is_of_beam(p: Parameter) -> bool {
-    matches!(
-        p,
-        Parameter::Frequency(_)
-            | Parameter::Stiffness(_)
-            | Parameter::Shape(..)
-            | Parameter::ShapeShare(..)
-    )
+    matches!(p, Parameter::Frequency(_) | Parameter::Stiffness(_) | Parameter::Shape(..))
 }
 
 /// Converts sums with derivatives by parameters to sums with derivatives by coordinates.

@@ -110,7 +110,8 @@ pub(crate) struct ReplayProblem<'a> {
 impl ReplayProblem<'_> {
     /// Replays `windows` through `body`.
     pub(crate) fn at(&self, body: Body, windows: Vec<Window>) -> SearchPoint {
-        self.budget.count(samples_of(&windows), self.parameters.len());
+        let filtered = self.sampling.command_noise > 0.0;
+        self.budget.count(samples_of(&windows), self.parameters.len(), filtered);
         let mut sums = sums(&body.arm, self.parameters, self.campaign, &windows, self.sampling);
         if let Some(jacobian) = body.jacobian(self.parameters) {
             sums = sums.iter().map(|s| in_coordinates(s, &jacobian)).collect();
@@ -154,7 +155,8 @@ impl ReplayProblem<'_> {
             let after = match &ahead {
                 Some(ahead) => ahead.robust_cost(usual),
                 None if possible => {
-                    self.budget.count(samples_of(&windows), 0);
+                    let filtered = self.sampling.command_noise > 0.0;
+                    self.budget.count(samples_of(&windows), 0, filtered);
                     let costs = costs(&body.arm, self.campaign, &windows, self.sampling);
                     let samples = point.sums.iter().map(|s| s.samples);
                     costs.iter().zip(samples).map(|(c, n)| robust(c.cost, n, usual)).sum()

@@ -5,14 +5,15 @@ use std::f64::consts::TAU;
 use nalgebra::DMatrix;
 
 use crate::identify::methods::output_error::thresholds::{
-    CRITICAL_DAMPING, RESIDUAL_AT_NOISE, RESIDUAL_FAR_ABOVE_NOISE, SLOW_RESIDUAL,
+    CRITICAL_DAMPING, RESIDUAL_AT_NOISE, RESIDUAL_FAR_ABOVE_NOISE, SLOW_INNOVATIONS, SLOW_RESIDUAL,
 };
 use crate::record::{Tip, TipQuantity};
 use crate::replay::ModalArm;
 
-/// Whether the slow share of some channel's residual is larger than its sensor's noise explains.
-pub(crate) fn is_left(shares: &[f64]) -> bool {
-    most(shares) > SLOW_RESIDUAL
+/// Whether the slow share of some channel's residual is larger than its sensor's noise explains, or so large that noise of the
+/// command was taken for what the arm lacks.
+pub(crate) fn is_left(shares: &[f64], command_noise: f64) -> bool {
+    most(shares) > if command_noise > 0.0 { SLOW_INNOVATIONS } else { SLOW_RESIDUAL }
 }
 
 /// The largest of some shares.

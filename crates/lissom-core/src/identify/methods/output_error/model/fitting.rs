@@ -34,6 +34,8 @@ pub(crate) struct Fitting<'a> {
     pub(crate) blocks: &'a [Blocks],
     /// Terms of friction that slip phases hardly show.
     pub(crate) further_terms: &'a [LawTerm],
+    /// Modes that the responses of the tips show \[rad/s\].
+    pub(crate) shown_rad_s: &'a [f64],
     /// Noise of each channel, estimated from its samples alone.
     pub(crate) noise: &'a [SensorNoise],
     /// Acceleration of the motor that noise of a measured command makes at most \[rad/s² or m/s²\].
@@ -91,7 +93,7 @@ impl Fitting<'_> {
     /// Cost of a fit for this noise, and by how much noise of the command widens that of the sensors.
     pub(crate) fn costs(&self, fit: &ArmFit, sampling: Sampling<'_>) -> [f64; 2] {
         let samples: usize = fit.windows.iter().map(Window::len).sum();
-        self.budget.count(samples, 0);
+        self.budget.count(samples, 0, sampling.command_noise > 0.0);
         let found = costs(&fit.body.arm, self.campaign, &fit.windows, sampling);
         found.iter().fold([0.0; 2], |[cost, widened], w| [cost + w.cost, widened + w.widened])
     }
@@ -101,17 +103,19 @@ impl Fitting<'_> {
     /// If it has more coordinates, the cost must fall by more than these are worth. If it has fewer, the cost may
     /// rise by less than these are worth. A coordinate is worth the square of [`PRESENT`], the standard errors at
     /// which a parameter is as likely to be present as not, and at least the share [`PARAMETER_SHARE_LEAST`] of the
-    /// cost, which errors that are not white noise may take. Where the residual is above the noise, more coordinates
-    /// must also explain a good part of that excess ([`EXCESS_LEFT`]): any parameter takes some of the error of an arm
-    /// that lacks something else.
+    /// cost, which errors that are not white noise may take. Each further unknown of a window takes one by chance. Where the
+    /// residual is above the noise, more coordinates must also explain a good part of that excess ([`EXCESS_LEFT`]): any
+    /// parameter takes some of the error of an arm that lacks something else.
     pub(crate) fn is_better(&self, other: &ArmFit, fit: &ArmFit) -> bool {
         let (noise, command_noise) = fit.assumed_noise();
         let sampling = Sampling { noise, blocks: &[], masks: self.masks, command_noise };
         let cost = |fit: &ArmFit| self.costs(fit, sampling)[0];
         let (before, after) = (cost(fit), cost(other));
         let more = other.coordinates() as f64 - fit.coordinates() as f64;
-        let cheaper =
-            after + (PRESENT * PRESENT).max(PARAMETER_SHARE_LEAST * before) * more < before;
+        let own = |fit: &ArmFit| fit.windows.iter().map(|w| w.start.len()).sum::<usize>() as f64;
+        let by_chance = own(other) - own(fit);
+        let worth = (PRESENT * PRESENT).max(PARAMETER_SHARE_LEAST * before);
+        let cheaper = after + worth * more + by_chance < before;
         let above_noise = self.beyond_noise(fit) > RESIDUAL_ABOVE_NOISE;
         let explains = || self.excess(other) <= EXCESS_LEFT * self.excess(fit);
         cheaper && (more <= 0.0 || !above_noise || explains())
@@ -242,7 +246,8 @@ impl Fitting<'_> {
             return None;
         }
         let samples: usize = fit.windows.iter().map(Window::len).sum();
-        let every = samples.div_ceil(PROBE_SAMPLES).min(fit.windows.len()).max(1);
+        let most = if fit.command_noise > 0.0 { PROBE_SAMPLES / 3 } else { PROBE_SAMPLES };
+        let every = samples.div_ceil(most).min(fit.windows.len()).max(1);
         let windows = fit.windows.iter().step_by(every).cloned().collect();
         let mut problem = self.problem(&fit.free, fit.assumed_noise(), fit.whole_runs);
         problem.near_enough = STEP_SHARE_LEAST;

@@ -33,7 +33,8 @@ pub fn starts(
         return Vec::new();
     }
     let by_regression = beam.and_then(|b| {
-        let (omega, shapes) = ModalArm::modes_of(&b.stiffness)?;
+        let sums: Vec<f64> = b.shares.iter().map(|share| share.value).collect();
+        let (omega, shapes) = ModalArm::modes_of(&b.stiffness, &sums)?;
         let ratios = b.modes.iter().map(|m| m.damping_ratio.value).collect();
         Some((omega, ratios, shapes))
     });

@@ -5,22 +5,61 @@ use crate::identify::methods::output_error::engine::covariance::standard_error;
 use crate::identify::methods::output_error::model::fit::{ArmFit, Report};
 use crate::identify::methods::output_error::model::fitting::Fitting;
 use crate::identify::methods::output_error::thresholds::{
-    CRITICAL_DAMPING, FIRST_MODE_OSCILLATIONS, MODE_FAINT, MODE_RETUNED, MODE_RETUNED_CLOSELY,
-    NEW_MODE_DAMPING, NEW_MODE_FREQUENCIES, NEW_MODE_SHARE, NEW_MODE_TURN, PROBE_STEPS,
-    REPETITIONS_MOST,
+    CRITICAL_DAMPING, FIRST_MODE_OSCILLATIONS, MODE_RETUNED, MODE_RETUNED_CLOSELY, NEW_MODE_ABOVE,
+    NEW_MODE_DAMPING, NEW_MODE_FREQUENCIES, NEW_MODE_SHARE, NEW_MODE_STARTS, NEW_MODE_TURN,
+    PROBE_STEPS, REPETITIONS_MOST, RESIDUAL_ABOVE_NOISE,
 };
+use crate::identify::thresholds::PRESENT;
 use crate::replay::{MOST_MODES, ModalArm, Oscillator, Parameter, free_parameters};
 
-/// Adds modes above the others, up to as many as tips, while each makes the fit better.
-pub(crate) fn grow(fitting: &Fitting<'_>, fit: &mut ArmFit, report: &mut Report) {
+/// Adds modes above the others, up to as many as tips, while each makes the fit better. An axis without tips keeps the mode that
+/// it started with.
+pub(crate) fn grow_to_tips(fitting: &Fitting<'_>, fit: &mut ArmFit, report: &mut Report) {
     let tips = fitting.campaign.channels.tips.len().min(MOST_MODES);
-    while !fit.body.arm.modes.is_empty() && fit.body.arm.modes.len() < tips {
-        let beyond = with_one_more(fitting, fit, report);
-        if !fitting.is_better(&beyond, fit) {
+    let mut grows = true;
+    while grows && (1..tips).contains(&fit.body.arm.modes.len()) {
+        grows = adds_mode(fitting, fit, report);
+    }
+}
+
+/// Adds further modes than tips where the residual is above the noise, and over all windows where noise of the command may hide
+/// that it is.
+pub(crate) fn grow(fitting: &Fitting<'_>, fit: &mut ArmFit, report: &mut Report) {
+    grow_to_tips(fitting, fit, report);
+    let lacks = |fit: &ArmFit| {
+        let hidden = fit.whole_runs && fit.command_noise > 0.0;
+        hidden || fitting.beyond_noise(fit) >= RESIDUAL_ABOVE_NOISE
+    };
+    let most = if fitting.campaign.channels.tips.is_empty() { 0 } else { MOST_MODES };
+    let mut grows = true;
+    while grows && (1..most).contains(&fit.body.arm.modes.len()) && lacks(fit) {
+        grows = adds_mode(fitting, fit, report);
+    }
+}
+
+/// Adds a mode above the others if the fit is better with it.
+fn adds_mode(fitting: &Fitting<'_>, fit: &mut ArmFit, report: &mut Report) -> bool {
+    // A fit at the noise has little to gain.
+    let above_noise = fitting.beyond_noise(fit) >= RESIDUAL_ABOVE_NOISE;
+    let starts = if above_noise { NEW_MODE_STARTS } else { 1 };
+    for start in with_one_more(fitting, fit).into_iter().take(starts) {
+        let beyond = settled(fitting, start, report);
+        if is_above_others(&beyond.body.arm) && fitting.is_better(&beyond, fit) {
+            *fit = beyond;
+            return true;
+        }
+        if fitting.budget.is_spent() {
             break;
         }
-        *fit = beyond;
     }
+    false
+}
+
+/// Whether the last mode is clearly above the others, and takes energy.
+fn is_above_others(arm: &ModalArm) -> bool {
+    let Some((last, others)) = arm.modes.split_last() else { return false };
+    let is_damped = arm.damping_ratios().last().is_some_and(|ratio| *ratio > 0.0);
+    is_damped && others.iter().all(|mode| last.omega_rad_s > NEW_MODE_ABOVE * mode.omega_rad_s)
 }
 
 /// Adds a mode to the initial state of every window: it moves with the motor.
@@ -31,8 +70,8 @@ fn begin_undeflected(fit: &mut ArmFit) {
     }
 }
 
-/// Takes out what is not a mode: overdamped ones, which do not oscillate and which no beam has (a rigid axis that started with
-/// a mode has one), and, without tips, one that makes hardly an oscillation in a run.
+/// Takes out what is not a mode: of several one that gains energy; overdamped ones, which do not oscillate (a rigid axis that
+/// started with a mode has one); one beside another; and, without tips, one that makes hardly an oscillation in a run.
 pub(crate) fn drop_impossible(fitting: &Fitting<'_>, fit: &mut ArmFit, report: &mut Report) {
     let slowest_rad_s = FIRST_MODE_OSCILLATIONS * std::f64::consts::TAU / fitting.longest_s();
     let slow = |fit: &ArmFit| {
@@ -41,6 +80,18 @@ pub(crate) fn drop_impossible(fitting: &Fitting<'_>, fit: &mut ArmFit, report: &
         arm.modes.iter().position(slow).filter(|_| arm.shapes.is_empty())
     };
     if let Some(mode) = slow(fit) {
+        *fit = refitted(fitting, without_mode(fit, mode), report);
+    }
+    let driven = |fit: &ArmFit| {
+        let ratios = fit.body.arm.damping_ratios();
+        let several = ratios.len() > 1;
+        let surely = |j: usize| {
+            let share = known_to(fitting, fit, Parameter::DampingWithin(j));
+            share.is_some_and(|share| share < 1.0 / PRESENT)
+        };
+        (0..ratios.len()).find(|j| several && ratios[*j] < 0.0 && surely(*j))
+    };
+    while let Some(mode) = driven(fit).or_else(|| beside_another(&fit.body.arm)) {
         *fit = refitted(fitting, without_mode(fit, mode), report);
     }
     let overdamped = |fit: &ArmFit| {
@@ -55,7 +106,47 @@ pub(crate) fn drop_impossible(fitting: &Fitting<'_>, fit: &mut ArmFit, report: &
     }
 }
 
-/// Takes out one mode. Its share in each tip's motion goes to the last mode that remains.
+/// A mode so near to another that both are one; the one of less stiffness.
+fn beside_another(arm: &ModalArm) -> Option<usize> {
+    let modes = &arm.modes;
+    let is_one = |i: usize, j: usize| {
+        let [a, b] = [i, j].map(|k| modes[k].omega_rad_s);
+        i != j
+            && a.max(b) < NEW_MODE_ABOVE * a.min(b)
+            && modes[i].stiffness_nm_per_rad <= modes[j].stiffness_nm_per_rad
+    };
+    (0..modes.len()).find(|i| (0..modes.len()).any(|j| is_one(*i, j)))
+}
+
+/// Takes the stiffness out of modes above the first whose stiffness is not known to be more than nothing, and out of overdamped
+/// ones: the tips show them, and the motor does not. Their inertia is then part of that of the motor.
+pub(crate) fn lighten(fitting: &Fitting<'_>, fit: &mut ArmFit, report: &mut Report) {
+    for mode in (0..fit.body.arm.modes.len()).rev() {
+        let of_beam = fit.body.arm.modes.iter().filter(|m| m.stiffness_nm_per_rad > 0.0).count();
+        let Some(known) = known_to(fitting, fit, Parameter::Stiffness(mode)) else { continue };
+        let overdamped = fit.body.arm.damping_ratios()[mode] >= CRITICAL_DAMPING;
+        if of_beam < 2 || (known < 1.0 / PRESENT && !overdamped) {
+            continue;
+        }
+        let mut light = fit.clone();
+        light.body.masses = None;
+        light.body.arm.modes[mode].stiffness_nm_per_rad = 0.0;
+        light.free.retain(|p| *p != Parameter::Stiffness(mode));
+        fitting.search(&mut light, report);
+        if overdamped || fitting.is_better(&light, fit) {
+            *fit = light;
+        }
+    }
+}
+
+/// Relative standard error of a free parameter.
+fn known_to(fitting: &Fitting<'_>, fit: &ArmFit, parameter: Parameter) -> Option<f64> {
+    let at = fit.free.iter().position(|p| *p == parameter)?;
+    let covariance = fitting.covariances(fit).larger();
+    Some(standard_error(&covariance, at) / parameter.of(&fit.body.arm).abs())
+}
+
+/// Takes out one mode. Its stiffness and its share in each tip's motion go to the mode nearest to it.
 fn without_mode(fit: &ArmFit, mode: usize) -> ArmFit {
     let mut fit = fit.clone();
     fit.body.masses = None;
@@ -65,10 +156,17 @@ fn without_mode(fit: &ArmFit, mode: usize) -> ArmFit {
         oscillator.grounded_per_s = 2.0 * ratio * oscillator.omega_rad_s - oscillator.within_per_s;
     }
     arm.at_points_per_s.clear();
-    arm.modes.remove(mode);
+    let gone = arm.modes.remove(mode);
+    let apart = |j: &usize| (arm.modes[*j].omega_rad_s / gone.omega_rad_s).ln().abs();
+    let nearest = (0..arm.modes.len()).min_by(|a, b| apart(a).total_cmp(&apart(b)));
     for row in &mut arm.shapes {
-        let gone = row.remove(mode);
-        row.last_mut().into_iter().for_each(|r| *r += gone);
+        let share = row.remove(mode);
+        if let Some(j) = nearest {
+            row[j] += share;
+        }
+    }
+    if let Some(j) = nearest {
+        arm.modes[j].stiffness_nm_per_rad += gone.stiffness_nm_per_rad;
     }
     for window in &mut fit.windows {
         window.start.drain(2 + 2 * mode..4 + 2 * mode);
@@ -94,34 +192,46 @@ fn refreed(fitting: &Fitting<'_>, mut fit: ArmFit) -> ArmFit {
     fit
 }
 
-/// Searches with a mode above all others. It takes over a part of the highest mode, which may represent several.
+/// Fits with a mode above all others, the likeliest first. It takes over a part of the highest mode, which may represent several.
 ///
-/// A search that begins at a wrong frequency of the new mode ends in a wrong minimum. So short searches on a part of
-/// the windows begin at each of some frequencies, and with both signs of the turn of point masses. The best
-/// continues.
-fn with_one_more(fitting: &Fitting<'_>, fit: &ArmFit, report: &mut Report) -> ArmFit {
+/// A search that begins at a wrong frequency of the new mode ends in a wrong minimum. So short searches on a part of the windows
+/// begin at each mode that the tips' responses show and at each of some further frequencies, and with both signs of its share: the
+/// end of a beam moves the other way in its next mode, and a gauge at its root bends the same way.
+fn with_one_more(fitting: &Fitting<'_>, fit: &ArmFit) -> Vec<ArmFit> {
     let last = highest(&fit.body.arm);
-    let mut best: Option<(f64, ArmFit)> = None;
-    for times in NEW_MODE_FREQUENCIES {
-        let beyond = one_beyond(fit.clone(), last, times);
-        let new = beyond.body.arm.modes.len() - 1;
-        let body = Body::of_masses(fitting.campaign, beyond.body.arm.clone());
-        let bodies = match body.masses {
-            Some(_) => {
-                [NEW_MODE_TURN, -NEW_MODE_TURN].map(|t| body.clone().turned(last, new, t)).into()
-            }
-            None => vec![beyond.body.clone()],
-        };
-        for body in bodies {
-            let start = refreed(fitting, ArmFit { body, ..beyond.clone() });
-            let Some((cost, body)) = fitting.probe(&start, PROBE_STEPS) else { continue };
-            if best.as_ref().is_none_or(|(least, _)| cost < *least) {
-                best = Some((cost, ArmFit { body, ..start }));
+    let mut found: Vec<(f64, ArmFit)> = Vec::new();
+    let omega_rad_s = fit.body.arm.modes[last].omega_rad_s;
+    let shown = fitting.shown_rad_s.iter().map(|shown| shown / omega_rad_s);
+    let tried = shown.filter(|times| *times > NEW_MODE_ABOVE).chain(NEW_MODE_FREQUENCIES);
+    for times in tried {
+        for sign in [1.0, -1.0] {
+            let beyond = one_beyond(fit.clone(), last, times, NEW_MODE_SHARE);
+            let new = beyond.body.arm.modes.len() - 1;
+            let masses = Body::of_masses(fitting.campaign, beyond.body.arm.clone());
+            let (beyond, body) = if masses.masses.is_some() {
+                (beyond, masses.turned(last, new, sign * NEW_MODE_TURN))
+            } else {
+                let beyond = one_beyond(fit.clone(), last, times, sign * NEW_MODE_SHARE);
+                let body = Body::free(beyond.body.arm.clone());
+                (beyond, body)
+            };
+            let start = refreed(fitting, ArmFit { body, ..beyond });
+            let probed = fitting.probe(&start, PROBE_STEPS);
+            if let Some((cost, body)) = probed.filter(|(_, body)| is_above_others(&body.arm)) {
+                found.push((cost, ArmFit { body, ..start }));
             }
         }
     }
-    let Some((_, start)) = best else { return fit.clone() };
+    found.sort_by(|a, b| a.0.total_cmp(&b.0));
+    found.into_iter().map(|(_, fit)| fit).collect()
+}
+
+/// Searches to the end, and again from another frequency of the highest mode if that promises more.
+fn settled(fitting: &Fitting<'_>, start: ArmFit, report: &mut Report) -> ArmFit {
     let found = refitted(fitting, start, report);
+    if fitting.beyond_noise(&found) < RESIDUAL_ABOVE_NOISE && is_above_others(&found.body.arm) {
+        return found;
+    }
     match retuned(fitting, &found) {
         Some(other) => refitted(fitting, other, report),
         None => found,
@@ -185,7 +295,8 @@ pub(crate) fn highest(arm: &ModalArm) -> usize {
     (0..arm.modes.len()).max_by(|a, b| omega(a).total_cmp(&omega(b))).unwrap_or(0)
 }
 
-fn one_beyond(mut fit: ArmFit, last: usize, times: f64) -> ArmFit {
+/// Adds a mode that takes over a part of the mode `last`, and this share of it in what the tips see.
+fn one_beyond(mut fit: ArmFit, last: usize, times: f64, share: f64) -> ArmFit {
     let arm = &mut fit.body.arm;
     let cut = arm.modes[last];
     arm.modes[last].stiffness_nm_per_rad *= 1.0 - NEW_MODE_SHARE;
@@ -196,29 +307,11 @@ fn one_beyond(mut fit: ArmFit, last: usize, times: f64) -> ArmFit {
         within_per_s: 2.0 * NEW_MODE_DAMPING * times * cut.omega_rad_s,
         grounded_per_s: 0.0,
     });
+    arm.at_points_per_s.clear();
     for row in &mut arm.shapes {
-        row.push(NEW_MODE_SHARE * row[last]);
-        row[last] *= 1.0 - NEW_MODE_SHARE;
+        row.push(share * row[last]);
+        row[last] *= 1.0 - share;
     }
     begin_undeflected(&mut fit);
     fit
-}
-
-/// Whether the highest of several modes is faint: its stiffness is hardly known.
-pub(crate) fn highest_is_faint(fitting: &Fitting<'_>, fit: &ArmFit) -> bool {
-    let arm = &fit.body.arm;
-    let stiffness = || known_to(fitting, fit)(Parameter::Stiffness(highest(arm)));
-    arm.modes.len() > 1 && stiffness().is_some_and(|share| share > MODE_FAINT)
-}
-
-/// Relative standard errors of parameters.
-fn known_to<'a>(
-    fitting: &Fitting<'_>,
-    fit: &'a ArmFit,
-) -> impl Fn(Parameter) -> Option<f64> + use<'a> {
-    let covariance = fitting.covariances(fit).larger();
-    move |p| {
-        let i = fit.free.iter().position(|q| *q == p)?;
-        Some(standard_error(&covariance, i) / p.of(&fit.body.arm).abs())
-    }
 }
