@@ -2,6 +2,8 @@
 
 use std::ops::Range;
 
+use nalgebra::DMatrix;
+
 use super::loaded_information::LoadedJoint;
 use super::{PlanError, PlannedParameter, PlannedUnknown, Precision};
 use crate::information::ArmParameter;
@@ -9,7 +11,7 @@ use crate::load::GravityLoad;
 use crate::plan::thresholds::MODE_FOLLOWED;
 use crate::record::{Campaign, Channels, Run};
 use crate::replay::{
-    ArmModes, MOST_MODES, ModalArm, Parameter, SensorNoise, Window, free_parameters,
+    ArmModes, Body, MOST_MODES, ModalArm, Parameter, SensorNoise, Window, free_parameters,
 };
 use crate::rig::{Logged, Rig, Sensor};
 
@@ -84,14 +86,34 @@ impl<'a> KnownRig<'a> {
         })
     }
 
-    /// Each unknown in the order of the information, with its value and its scale.
-    pub(super) fn unknowns(&self) -> Vec<(PlannedUnknown, f64, f64)> {
-        let of_arm = |p: &Parameter| (PlannedUnknown::Arm(*p), p.of(&self.arm), p.size(&self.arm));
+    /// Each unknown in the order of the information, with its value.
+    pub(super) fn unknowns(&self) -> Vec<(PlannedUnknown, f64)> {
+        let of_arm = |p: &Parameter| (PlannedUnknown::Arm(*p), p.of(&self.arm));
         let mut all: Vec<_> = self.parameters.iter().map(of_arm).collect();
         if let Some(load) = self.gravity {
-            let size = load.amplitude_nm();
-            all.push((PlannedUnknown::GravitySine, load.sine_nm, size));
-            all.push((PlannedUnknown::GravityCosine, load.cosine_nm, size));
+            all.push((PlannedUnknown::GravitySine, load.sine_nm));
+            all.push((PlannedUnknown::GravityCosine, load.cosine_nm));
+        }
+        all
+    }
+
+    /// Derivative of each unknown by each coordinate that the identification varies, times the coordinate's size: point masses at
+    /// the tips, where the beam has these, are fewer than the unknowns.
+    pub(super) fn directions(&self) -> DMatrix<f64> {
+        let body = Body::of_masses(&self.channels, self.arm.clone());
+        let coordinates = body.coordinates(&self.parameters);
+        let mut sizes: Vec<f64> = coordinates.iter().map(|c| body.size(*c)).collect();
+        let (n, own) = (self.parameters.len(), sizes.len());
+        let loads = if self.gravity.is_some() { 2 } else { 0 };
+        sizes.extend(vec![self.gravity.map_or(0.0, |load| load.amplitude_nm()); loads]);
+        let mut all = DMatrix::identity(n + loads, own + loads);
+        if let Some(jacobian) = body.jacobian(&self.parameters) {
+            all.fill(0.0);
+            all.view_mut((0, 0), (n, own)).copy_from(&jacobian);
+            all.view_mut((n, own), (loads, loads)).fill_with_identity();
+        }
+        for (mut column, size) in all.column_iter_mut().zip(sizes) {
+            column *= size;
         }
         all
     }

@@ -8,7 +8,7 @@ use super::{
     ArmParameter, BETWEEN_S, Candidate, Expected, Kinds, Plan, PlanError, PlanNote, PlannedMotion,
     PlannedParameter, PlannedRun, Unfit, Wishes, note,
 };
-use crate::information::covariance;
+use crate::information::{Inverse, along, inverted};
 use crate::rig::Rig;
 
 /// The choices and the goal of a plan.
@@ -20,8 +20,8 @@ pub(super) struct Planner<'a> {
     sets: Vec<&'a Vec<Candidate>>,
     pub(super) choices: Vec<Choice>,
     pub(super) goal: Goal,
-    /// Scale of each parameter in the information.
-    scale: DVector<f64>,
+    /// Derivatives of the unknowns by the coordinates in which information is added.
+    directions: DMatrix<f64>,
 }
 
 impl<'a> Planner<'a> {
@@ -38,15 +38,16 @@ impl<'a> Planner<'a> {
             return Err(PlanError::NoMotion { tried: found.len(), reasons });
         }
         let unknowns = known.unknowns();
-        let scale = DVector::from_iterator(unknowns.len(), unknowns.iter().map(|u| u.2));
-        let choices: Vec<Choice> = sets.iter().map(|set| choice(set, &scale)).collect();
+        let directions = known.directions();
+        let choices: Vec<Choice> = sets.iter().map(|set| choice(set, &directions)).collect();
         let shortest_s = choices.iter().map(|c| c.time_s[0]).fold(f64::INFINITY, f64::min);
         if shortest_s > wishes.within_s {
             return Err(PlanError::NoTime { within_s: wishes.within_s, shortest_s });
         }
         let wanted = known.parameters().into_iter().map(|parameter| {
-            let slopes = unknowns.iter().map(|(of, _, size)| known.slope(parameter, *of) * size);
-            let along = DVector::from_iterator(scale.len(), slopes) / known.value(parameter);
+            let slopes = unknowns.iter().map(|(of, _)| known.slope(parameter, *of));
+            let slopes = DVector::from_iterator(unknowns.len(), slopes);
+            let along = directions.tr_mul(&slopes) / known.value(parameter);
             (along, wishes.precision.of_planned(parameter))
         });
         let goal = Goal {
@@ -54,7 +55,7 @@ impl<'a> Planner<'a> {
             within_s: wishes.within_s,
             pair: wishes.kinds != Kinds::Any,
         };
-        Ok(Self { known, rig, wishes, sets, choices, goal, scale })
+        Ok(Self { known, rig, wishes, sets, choices, goal, directions })
     }
 
     pub(super) fn plan(
@@ -63,7 +64,7 @@ impl<'a> Planner<'a> {
         mut notes: Vec<PlanNote>,
         longest_wait_s: f64,
     ) -> Plan {
-        let size = self.scale.len();
+        let size = self.directions.ncols();
         let total = choose::information(&self.choices, chosen, size);
         let ratios = self.goal.ratios(&total);
         let parameters = self.known.parameters();
@@ -96,11 +97,14 @@ impl<'a> Planner<'a> {
             notes.push(PlanNote::SinesAlone);
         }
         notes.extend(self.unreached(chosen, &expected, time_s));
-        let covariance = covariance(&total);
+        let Inverse { matrix, lost } = inverted(&total);
+        let std = |i: usize| {
+            let by = self.directions.row(i).transpose();
+            let is_lost = lost.iter().zip(&by).any(|(lost, by)| *lost && *by != 0.0);
+            if is_lost { f64::INFINITY } else { along(&by, &matrix) }
+        };
         let unknowns = self.known.unknowns().into_iter().enumerate();
-        let parameters = unknowns
-            .map(|(i, (of, value, size))| (of, value, covariance[(i, i)].sqrt() * size))
-            .collect();
+        let parameters = unknowns.map(|(i, (of, value))| (of, value, std(i))).collect();
         Plan { runs, expected, parameters, time_s, notes, longest_wait_s }
     }
 
@@ -150,13 +154,11 @@ impl<'a> Planner<'a> {
 }
 
 /// Information and times of motions that are chosen together.
-fn choice(set: &[Candidate], scale: &DVector<f64>) -> Choice {
+fn choice(set: &[Candidate], directions: &DMatrix<f64>) -> Choice {
     let stretches = set.iter().map(|c| c.information.len()).min().unwrap_or(0);
-    let size = scale.len();
-    let scaled =
-        |m: &DMatrix<f64>| DMatrix::from_fn(size, size, |i, j| m[(i, j)] * scale[i] * scale[j]);
+    let size = directions.ncols();
     let all = |k: usize| {
-        let parts = set.iter().map(|c| scaled(&c.information[k]));
+        let parts = set.iter().map(|c| directions.tr_mul(&(&c.information[k] * directions)));
         parts.fold(DMatrix::zeros(size, size), |sum, part| sum + part)
     };
     let time = |k: usize| {

@@ -8,6 +8,7 @@
 //! is the model that is simulated.
 
 mod arm_modes;
+mod coordinates;
 mod events;
 mod friction;
 mod innovations;
@@ -35,6 +36,7 @@ pub use crate::friction::{
     Ripple, RippleNumber, Root, WithLoad,
 };
 pub use arm_modes::ArmModes;
+pub(crate) use coordinates::{Body, in_coordinates};
 pub(crate) use modal_arm::TURN_MOST;
 pub use modal_arm::{MOST_MODES, ModalArm, Oscillator};
 pub use noise::SensorNoise;

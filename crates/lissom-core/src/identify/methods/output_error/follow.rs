@@ -4,13 +4,12 @@ use rayon::prelude::*;
 
 use crate::identify::interrupt::Interrupt;
 use crate::identify::methods::output_error::engine::budget::Budget;
-use crate::identify::methods::output_error::engine::coordinates::Body;
 use crate::identify::methods::output_error::engine::search::{ReplayProblem, is_possible};
 use crate::identify::methods::output_error::engine::windows::widen;
 use crate::identify::methods::output_error::engine::{data, noise};
 use crate::identify::methods::output_error::thresholds::{LAST_STEP_FALL, LAST_STEPS_MOST};
 use crate::record::Campaign;
-use crate::replay::{ModalArm, Sampling, SensorNoise, Window};
+use crate::replay::{Body, ModalArm, Sampling, SensorNoise, Window};
 
 /// Windows of about `length_s` (whole runs if that is longer), each with the initial state and the tips' zeros for
 /// which the arm's motion is closest to the log. The arm itself is not changed.

@@ -7,7 +7,6 @@
 //! 4. Choice of modes, dampers and point masses ([`settle`]); sensors' steps are counted as steps.
 //! 5. A slower repetition if the search may have ended in a wrong minimum ([`again`]).
 
-use crate::identify::methods::output_error::engine::coordinates::Body;
 use crate::identify::methods::output_error::engine::data::Masks;
 use crate::identify::methods::output_error::engine::windows::widen as widened;
 use crate::identify::methods::output_error::found::OutputErrorStart;
@@ -25,7 +24,7 @@ use crate::identify::methods::output_error::thresholds::{
     PROBE_STEPS, RESIDUAL_AT_NOISE, RESIDUAL_FAR_ABOVE_NOISE, START_COST_FAR, STARTS_ALIKE,
     WINDOW_WIDENING, WINDOW_WIDENING_SLOW,
 };
-use crate::replay::{ModalArm, Oscillator, Parameter};
+use crate::replay::{Body, ModalArm, Oscillator, Parameter};
 
 /// Result of a search from one starting arm.
 pub(super) struct Attempt {

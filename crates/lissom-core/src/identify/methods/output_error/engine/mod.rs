@@ -2,7 +2,6 @@
 
 pub(crate) mod budget;
 pub(crate) mod by_run;
-pub(crate) mod coordinates;
 pub(crate) mod covariance;
 pub(crate) mod data;
 pub(crate) mod noise;

@@ -5,7 +5,6 @@ use nalgebra::{DMatrix, DVector};
 use crate::friction::TermScale;
 use crate::identify::methods::friction_law::thresholds::NEAR_REST_MOST;
 use crate::identify::methods::output_error::engine::budget::Budget;
-use crate::identify::methods::output_error::engine::coordinates::{Body, in_coordinates};
 use crate::identify::methods::output_error::engine::noise::is_least;
 use crate::identify::methods::output_error::engine::windows::{fastest_rad_s, travel};
 use crate::identify::methods::output_error::thresholds::{
@@ -14,7 +13,10 @@ use crate::identify::methods::output_error::thresholds::{
 };
 use crate::information::{Reduced, inverse};
 use crate::record::{Campaign, Run};
-use crate::replay::{ModalArm, Oscillator, Parameter, Sampling, Window, WindowSums, costs, sums};
+use crate::replay::{
+    Body, ModalArm, Oscillator, Parameter, Sampling, Window, WindowSums, costs, in_coordinates,
+    sums,
+};
 
 /// Damping of the first step, relative to the diagonal; and where sensors' steps are counted, because their edges
 /// reject long steps of the search.

@@ -1,11 +1,10 @@
 //! State of a fit, and a report of its stages.
 
 use crate::identify::methods::output_error::engine::by_run::ByRun;
-use crate::identify::methods::output_error::engine::coordinates::Body;
 use crate::identify::methods::output_error::engine::covariance::Covariances;
 use crate::identify::methods::output_error::engine::search::{Iteration, Stop};
 use crate::identify::methods::output_error::thresholds::RESIDUAL_GROWN;
-use crate::replay::{ModalArm, Parameter, SensorNoise, Window, WindowSums};
+use crate::replay::{Body, ModalArm, Parameter, SensorNoise, Window, WindowSums};
 
 /// State of a fit.
 #[derive(Debug, Clone)]

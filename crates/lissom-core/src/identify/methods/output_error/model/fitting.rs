@@ -4,7 +4,6 @@ use rayon::prelude::*;
 
 use crate::identify::methods::friction_law::LawTerm;
 use crate::identify::methods::output_error::engine::budget::Budget;
-use crate::identify::methods::output_error::engine::coordinates::Body;
 use crate::identify::methods::output_error::engine::covariance::Covariances;
 use crate::identify::methods::output_error::engine::data::Masks;
 use crate::identify::methods::output_error::engine::noise;
@@ -23,8 +22,8 @@ use crate::identify::methods::output_error::thresholds::{
 use crate::identify::thresholds::PRESENT;
 use crate::record::{Campaign, Run};
 use crate::replay::{
-    Blocks, ModalArm, Parameter, Prediction, Sampling, SensorNoise, Window, WindowSums, costs,
-    free_parameters, predict,
+    Blocks, Body, ModalArm, Parameter, Prediction, Sampling, SensorNoise, Window, WindowSums,
+    costs, free_parameters, predict,
 };
 
 /// A campaign with what all of its fits share.
@@ -131,7 +130,7 @@ impl Fitting<'_> {
     pub(crate) fn first_fit(&self, arm: &ModalArm, window_s: f64) -> Option<ArmFit> {
         let longest = self.longest_s();
         let window_s = window_s.min(longest);
-        let body = Body::of_masses(self.campaign, arm.clone());
+        let body = Body::of_masses(&self.campaign.channels, arm.clone());
         let windows = some(cut(self.campaign, &body.arm, window_s));
         if windows.is_empty() || !is_possible(self.campaign, &body.arm) {
             return None;

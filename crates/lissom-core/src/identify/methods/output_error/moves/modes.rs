@@ -1,6 +1,5 @@
 //! Number of modes: modes are added while they make the fit better, and overdamped ones are taken out.
 
-use crate::identify::methods::output_error::engine::coordinates::Body;
 use crate::identify::methods::output_error::engine::covariance::standard_error;
 use crate::identify::methods::output_error::model::fit::{ArmFit, Report};
 use crate::identify::methods::output_error::model::fitting::Fitting;
@@ -10,7 +9,7 @@ use crate::identify::methods::output_error::thresholds::{
     PROBE_STEPS, REPETITIONS_MOST, RESIDUAL_ABOVE_NOISE,
 };
 use crate::identify::thresholds::PRESENT;
-use crate::replay::{MOST_MODES, ModalArm, Oscillator, Parameter, free_parameters};
+use crate::replay::{Body, MOST_MODES, ModalArm, Oscillator, Parameter, free_parameters};
 
 /// Adds modes above the others, up to as many as tips, while each makes the fit better. An axis without tips keeps the mode that
 /// it started with.
@@ -33,7 +32,18 @@ pub(crate) fn grow(fitting: &Fitting<'_>, fit: &mut ArmFit, report: &mut Report)
     let most = if fitting.campaign.channels.tips.is_empty() { 0 } else { MOST_MODES };
     let mut grows = true;
     while grows && (1..most).contains(&fit.body.arm.modes.len()) && lacks(fit) {
-        grows = adds_mode(fitting, fit, report);
+        retune(fitting, fit, report);
+        grows = lacks(fit) && adds_mode(fitting, fit, report);
+    }
+}
+
+/// Searches again from another frequency of the highest mode where that promises more: a further mode may hide that the search
+/// ended in a wrong minimum.
+fn retune(fitting: &Fitting<'_>, fit: &mut ArmFit, report: &mut Report) {
+    let Some(other) = retuned(fitting, fit) else { return };
+    let other = refitted(fitting, other, report);
+    if fitting.is_better(&other, fit) {
+        *fit = other;
     }
 }
 
@@ -207,7 +217,7 @@ fn with_one_more(fitting: &Fitting<'_>, fit: &ArmFit) -> Vec<ArmFit> {
         for sign in [1.0, -1.0] {
             let beyond = one_beyond(fit.clone(), last, times, NEW_MODE_SHARE);
             let new = beyond.body.arm.modes.len() - 1;
-            let masses = Body::of_masses(fitting.campaign, beyond.body.arm.clone());
+            let masses = Body::of_masses(&fitting.campaign.channels, beyond.body.arm.clone());
             let (beyond, body) = if masses.masses.is_some() {
                 (beyond, masses.turned(last, new, sign * NEW_MODE_TURN))
             } else {
@@ -268,7 +278,7 @@ pub(crate) fn starts_again(fitting: &Fitting<'_>, fit: &ArmFit) -> Vec<ModalArm>
         return Vec::new();
     }
     let mut short = fit.clone();
-    short.body = Body::of_masses(fitting.campaign, undamped(fit.body.arm.clone()));
+    short.body = Body::of_masses(&fitting.campaign.channels, undamped(fit.body.arm.clone()));
     fitting.shorten(&mut short);
     let mut tried: Vec<(f64, ArmFit)> = MODE_RETUNED_CLOSELY
         .iter()

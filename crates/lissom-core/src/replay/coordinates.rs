@@ -2,8 +2,11 @@
 
 use nalgebra::DMatrix;
 
-use crate::record::Campaign;
-use crate::replay::{BeamCoordinate, ModalArm, Parameter, PointMasses, WindowSums};
+use super::modal_arm::ModalArm;
+use super::parameter::Parameter;
+use super::point_masses::{BeamCoordinate, PointMasses};
+use super::sums::WindowSums;
+use crate::record::Channels;
 
 /// One coordinate that a search changes.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -22,8 +25,8 @@ pub(crate) struct Body {
 impl Body {
     /// An arm whose beam has point masses at its tips, if there are as many tips as modes and all tips are
     /// calibrated.
-    pub(crate) fn of_masses(campaign: &Campaign, arm: ModalArm) -> Self {
-        let angles = campaign.channels.tips.iter().all(|t| t.calibrated);
+    pub(crate) fn of_masses(channels: &Channels, arm: ModalArm) -> Self {
+        let angles = channels.tips.iter().all(|t| t.calibrated);
         let mut body = Self { masses: PointMasses::nearest(&arm).filter(|_| angles), arm };
         if let Some(masses) = &body.masses {
             masses.put_into(&mut body.arm);
@@ -89,6 +92,14 @@ impl Body {
                     BeamCoordinate::Turn(..) => None,
                 }
             }
+        }
+    }
+
+    /// Typical size of a coordinate.
+    pub(crate) fn size(&self, coordinate: Coordinate) -> f64 {
+        match coordinate {
+            Coordinate::Parameter(p) => p.size(&self.arm),
+            Coordinate::Beam(_) => self.scale(coordinate).unwrap_or(1.0),
         }
     }
 
