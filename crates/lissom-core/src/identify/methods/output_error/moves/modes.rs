@@ -53,7 +53,7 @@ fn adds_mode(fitting: &Fitting<'_>, fit: &mut ArmFit, report: &mut Report) -> bo
     let above_noise = fitting.beyond_noise(fit) >= RESIDUAL_ABOVE_NOISE;
     let starts = if above_noise { NEW_MODE_STARTS } else { 1 };
     for start in with_one_more(fitting, fit).into_iter().take(starts) {
-        let beyond = settled(fitting, start, report);
+        let beyond = refitted(fitting, start, report);
         if is_above_others(&beyond.body.arm) && fitting.is_better(&beyond, fit) {
             *fit = beyond;
             return true;
@@ -161,11 +161,7 @@ fn without_mode(fit: &ArmFit, mode: usize) -> ArmFit {
     let mut fit = fit.clone();
     fit.body.masses = None;
     let arm = &mut fit.body.arm;
-    for (j, ratio) in arm.damping_ratios().into_iter().enumerate() {
-        let oscillator = &mut arm.modes[j];
-        oscillator.grounded_per_s = 2.0 * ratio * oscillator.omega_rad_s - oscillator.within_per_s;
-    }
-    arm.at_points_per_s.clear();
+    without_points(arm);
     let gone = arm.modes.remove(mode);
     let apart = |j: &usize| (arm.modes[*j].omega_rad_s / gone.omega_rad_s).ln().abs();
     let nearest = (0..arm.modes.len()).min_by(|a, b| apart(a).total_cmp(&apart(b)));
@@ -184,6 +180,18 @@ fn without_mode(fit: &ArmFit, mode: usize) -> ArmFit {
     fit
 }
 
+/// Gives the damping of dampers at points to the modes.
+fn without_points(arm: &mut ModalArm) {
+    if arm.at_points_per_s.is_empty() {
+        return;
+    }
+    for (j, ratio) in arm.damping_ratios().into_iter().enumerate() {
+        let mode = &mut arm.modes[j];
+        mode.grounded_per_s = 2.0 * ratio * mode.omega_rad_s - mode.within_per_s;
+    }
+    arm.at_points_per_s.clear();
+}
+
 /// Searches again with the free parameters of the fit's modes.
 fn refitted(fitting: &Fitting<'_>, fit: ArmFit, report: &mut Report) -> ArmFit {
     let mut fit = refreed(fitting, fit);
@@ -191,7 +199,7 @@ fn refitted(fitting: &Fitting<'_>, fit: ArmFit, report: &mut Report) -> ArmFit {
     fit
 }
 
-/// Sets the free parameters to those of the fit's modes. Lags and viscous friction by direction stay free.
+/// Sets the free parameters to those of the fit's modes. Damping against the frame, lags, and viscous friction by direction stay.
 fn refreed(fitting: &Fitting<'_>, mut fit: ArmFit) -> ArmFit {
     let beside = |p: &Parameter| {
         matches!(p, Parameter::CommandLag | Parameter::ViscousDifference | Parameter::TipLag(_))
@@ -199,53 +207,30 @@ fn refreed(fitting: &Fitting<'_>, mut fit: ArmFit) -> ArmFit {
     let extra: Vec<Parameter> = fit.free.iter().copied().filter(beside).collect();
     fit.free = free_parameters(&fitting.campaign.channels, &fit.body.arm);
     fit.free.extend(extra);
+    let grounded = fit.body.arm.modes.iter().enumerate().filter(|(_, m)| m.grounded_per_s != 0.0);
+    fit.free.extend(grounded.map(|(j, _)| Parameter::DampingGrounded(j)));
     fit
 }
 
-/// Fits with a mode above all others, the likeliest first. It takes over a part of the highest mode, which may represent several.
+/// Fits with a mode above all others, the likeliest first.
 ///
 /// A search that begins at a wrong frequency of the new mode ends in a wrong minimum. So short searches on a part of the windows
-/// begin at each mode that the tips' responses show and at each of some further frequencies, and with both signs of its share: the
-/// end of a beam moves the other way in its next mode, and a gauge at its root bends the same way.
+/// begin at each mode that the tips' responses show and at each of some further frequencies.
 fn with_one_more(fitting: &Fitting<'_>, fit: &ArmFit) -> Vec<ArmFit> {
     let last = highest(&fit.body.arm);
     let mut found: Vec<(f64, ArmFit)> = Vec::new();
     let omega_rad_s = fit.body.arm.modes[last].omega_rad_s;
     let shown = fitting.shown_rad_s.iter().map(|shown| shown / omega_rad_s);
     let tried = shown.filter(|times| *times > NEW_MODE_ABOVE).chain(NEW_MODE_FREQUENCIES);
-    for times in tried {
-        for sign in [1.0, -1.0] {
-            let beyond = one_beyond(fit.clone(), last, times, NEW_MODE_SHARE);
-            let new = beyond.body.arm.modes.len() - 1;
-            let masses = Body::of_masses(&fitting.campaign.channels, beyond.body.arm.clone());
-            let (beyond, body) = if masses.masses.is_some() {
-                (beyond, masses.turned(last, new, sign * NEW_MODE_TURN))
-            } else {
-                let beyond = one_beyond(fit.clone(), last, times, sign * NEW_MODE_SHARE);
-                let body = Body::free(beyond.body.arm.clone());
-                (beyond, body)
-            };
-            let start = refreed(fitting, ArmFit { body, ..beyond });
-            let probed = fitting.probe(&start, PROBE_STEPS);
-            if let Some((cost, body)) = probed.filter(|(_, body)| is_above_others(&body.arm)) {
-                found.push((cost, ArmFit { body, ..start }));
-            }
+    for start in tried.flat_map(|times| one_beyond(fitting, fit, last, times * omega_rad_s)) {
+        let start = refreed(fitting, start);
+        let probed = fitting.probe(&start, PROBE_STEPS);
+        if let Some((cost, body)) = probed.filter(|(_, body)| is_above_others(&body.arm)) {
+            found.push((cost, ArmFit { body, ..start }));
         }
     }
     found.sort_by(|a, b| a.0.total_cmp(&b.0));
     found.into_iter().map(|(_, fit)| fit).collect()
-}
-
-/// Searches to the end, and again from another frequency of the highest mode if that promises more.
-fn settled(fitting: &Fitting<'_>, start: ArmFit, report: &mut Report) -> ArmFit {
-    let found = refitted(fitting, start, report);
-    if fitting.beyond_noise(&found) < RESIDUAL_ABOVE_NOISE && is_above_others(&found.body.arm) {
-        return found;
-    }
-    match retuned(fitting, &found) {
-        Some(other) => refitted(fitting, other, report),
-        None => found,
-    }
 }
 
 /// The highest mode at another frequency, if a short search from there ends at a lower cost than one from here. The
@@ -305,23 +290,50 @@ pub(crate) fn highest(arm: &ModalArm) -> usize {
     (0..arm.modes.len()).max_by(|a, b| omega(a).total_cmp(&omega(b))).unwrap_or(0)
 }
 
-/// Adds a mode that takes over a part of the mode `last`, and this share of it in what the tips see.
-fn one_beyond(mut fit: ArmFit, last: usize, times: f64, share: f64) -> ArmFit {
+/// Starts with a mode at this frequency. Where the residual is above the noise, the mode `last` may represent several: the new one
+/// takes a part of it, with either sign of what the tips see. Elsewhere its inertia is in the motor's, with which a mode moves that
+/// is not modelled, and the tips hardly see it.
+fn one_beyond(fitting: &Fitting<'_>, fit: &ArmFit, last: usize, omega_rad_s: f64) -> Vec<ArmFit> {
+    let mut fit = fit.clone();
+    fit.body.masses = None;
     let arm = &mut fit.body.arm;
-    let cut = arm.modes[last];
-    arm.modes[last].stiffness_nm_per_rad *= 1.0 - NEW_MODE_SHARE;
+    without_points(arm);
+    let stiffness = NEW_MODE_SHARE * arm.modes[last].stiffness_nm_per_rad;
     arm.modes.push(Oscillator {
-        omega_rad_s: times * cut.omega_rad_s,
-        stiffness_nm_per_rad: NEW_MODE_SHARE * cut.stiffness_nm_per_rad,
+        omega_rad_s,
+        stiffness_nm_per_rad: stiffness,
         // It must not ring for long, because its frequency is hardly known.
-        within_per_s: 2.0 * NEW_MODE_DAMPING * times * cut.omega_rad_s,
+        within_per_s: 2.0 * NEW_MODE_DAMPING * omega_rad_s,
         grounded_per_s: 0.0,
     });
-    arm.at_points_per_s.clear();
-    for row in &mut arm.shapes {
-        row.push(share * row[last]);
-        row[last] *= 1.0 - share;
-    }
+    arm.shapes.iter_mut().for_each(|row| row.push(0.0));
     begin_undeflected(&mut fit);
-    fit
+    let new = fit.body.arm.modes.len() - 1;
+    let split = |sign: f64| {
+        let mut fit = fit.clone();
+        let arm = &mut fit.body.arm;
+        arm.modes[last].stiffness_nm_per_rad -= stiffness;
+        // It may have stood for the new mode.
+        arm.modes.iter_mut().for_each(|mode| mode.grounded_per_s = 0.0);
+        for row in &mut arm.shapes {
+            row[new] = sign * NEW_MODE_SHARE * row[last];
+            row[last] -= row[new];
+        }
+        fit
+    };
+    let masses = Body::of_masses(&fitting.campaign.channels, split(1.0).body.arm);
+    if masses.masses.is_some() {
+        let turned = |sign: f64| masses.clone().turned(last, new, sign * NEW_MODE_TURN);
+        return [1.0, -1.0].map(|sign| ArmFit { body: turned(sign), ..fit.clone() }).into();
+    }
+    if fitting.beyond_noise(&fit) >= RESIDUAL_ABOVE_NOISE {
+        return [1.0, -1.0].map(split).into();
+    }
+    let arm = &mut fit.body.arm;
+    let inertia = (stiffness / omega_rad_s.powi(2)).min(NEW_MODE_SHARE * arm.inertia_kg_m2);
+    arm.inertia_kg_m2 -= inertia;
+    if let Some(mode) = arm.modes.last_mut() {
+        mode.stiffness_nm_per_rad = inertia * omega_rad_s.powi(2);
+    }
+    vec![fit]
 }
