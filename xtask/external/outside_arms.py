@@ -8,8 +8,9 @@ of an accelerometer) for all arms alike; --same makes the arm of FIRST again and
 current, as a share of its rms) and --steps (the same as steps of its sensor in place of white noise) set what the current has.
 
 What parameters mean where the estimate has n modes and the beam has more: a mode above them follows the hub as if it were rigid.
-Inertia is that of the hub and of those modes, J + Σ_{k>n} h_k²; coupling is the stiffness of the n modes, Σ_{k≤n} h_k²·ω_k², where
-h_k is the participation of the clamped mode k (mass-normalised) in the hub's angle; viscous friction is the hub's alone.
+Inertia is that of the hub and of those modes, J + Σ_{k>n} h_k², and viscous friction that of the hub and of their damping against
+the frame, V + Σ_{k>n} 2·ζ_k·ω_k·h_k² with that part of ζ_k; coupling is the stiffness of the n modes, Σ_{k≤n} h_k²·ω_k². h_k is the
+participation of the clamped mode k (mass-normalised) in the hub's angle.
 """
 
 import json
@@ -197,10 +198,11 @@ class Arm:
 
     def truth(self, modes):
         """The parameters of an arm with so many modes."""
-        inertia, omega = self.beam.part[:modes] ** 2, self.beam.omega
+        inertia, omega = self.beam.part**2, self.beam.omega
         total = self.hub + self.beam.inertia
-        rows = {"inertia": total - inertia.sum(), "coulomb": self.coulomb, "viscous": self.viscous}
-        return {**rows, "coupling": (inertia * omega[:modes] ** 2).sum()}
+        above = (2 * self.ground * omega * inertia)[modes:].sum()
+        rows = {"inertia": total - inertia[:modes].sum(), "coulomb": self.coulomb, "viscous": self.viscous + above}
+        return {**rows, "coupling": (inertia * omega**2)[:modes].sum()}
 
     def write(self, folder):
         folder.mkdir(parents=True, exist_ok=True)

@@ -47,13 +47,25 @@ fn retune(fitting: &Fitting<'_>, fit: &mut ArmFit, report: &mut Report) {
     }
 }
 
+/// Searches to the end, and again from another frequency of the highest mode if that promises more.
+fn settled(fitting: &Fitting<'_>, start: ArmFit, report: &mut Report) -> ArmFit {
+    let found = refitted(fitting, start, report);
+    if fitting.beyond_noise(&found) < RESIDUAL_ABOVE_NOISE && is_above_others(&found.body.arm) {
+        return found;
+    }
+    match retuned(fitting, &found) {
+        Some(other) => refitted(fitting, other, report),
+        None => found,
+    }
+}
+
 /// Adds a mode above the others if the fit is better with it.
 fn adds_mode(fitting: &Fitting<'_>, fit: &mut ArmFit, report: &mut Report) -> bool {
     // A fit at the noise has little to gain.
     let above_noise = fitting.beyond_noise(fit) >= RESIDUAL_ABOVE_NOISE;
     let starts = if above_noise { NEW_MODE_STARTS } else { 1 };
     for start in with_one_more(fitting, fit).into_iter().take(starts) {
-        let beyond = refitted(fitting, start, report);
+        let beyond = settled(fitting, start, report);
         if is_above_others(&beyond.body.arm) && fitting.is_better(&beyond, fit) {
             *fit = beyond;
             return true;
