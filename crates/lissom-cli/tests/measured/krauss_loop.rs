@@ -150,7 +150,6 @@ fn odd_harmonics_are_predicted_from_sweeps() {
         let off = |a: f64, b: f64| (a / b - 1.0).abs();
         assert!(off(predicted[0], measured[0]) < 0.02, "{predicted:?}, {measured:?}");
         assert!(off(predicted[1], measured[1]) < 0.1, "{predicted:?}, {measured:?}");
-        println!("{predicted:?} {without_friction:?} {measured:?}");
         for found in [&predicted, &without_friction] {
             let (found, measured) = (content(found), content(&measured));
             assert!(off(found, measured) < 0.1, "{found}, {measured}");
