@@ -10,7 +10,7 @@ current, as a share of its rms) and --steps (the same as steps of its sensor in 
 What parameters mean where the estimate has n modes and the beam has more: a mode above them follows the hub as if it were rigid.
 Inertia is that of the hub and of those modes, J + Σ_{k>n} h_k², and viscous friction that of the hub and of their damping against
 the frame, V + Σ_{k>n} 2·ζ_k·ω_k·h_k² with that part of ζ_k; coupling is the stiffness of the n modes, Σ_{k≤n} h_k²·ω_k². h_k is the
-participation of the clamped mode k (mass-normalised) in the hub's angle.
+participation of the clamped mode k (mass-normalised) in the hub's angle. truth.json has the parameters' bounds (arm_bound.py).
 """
 
 import json
@@ -23,6 +23,7 @@ from pathlib import Path
 import numpy as np
 from scipy.linalg import eigh
 
+import arm_bound
 import stick_slip
 
 ELEMENTS = 24
@@ -32,6 +33,10 @@ MODES = 6
 LOOPS = 4
 # The hub settles for so long before the log begins [s].
 SETTLE_S = 1.0
+# Standard deviation of an encoder with noise of a fifth of its step, in steps.
+STEPPED = math.hypot(0.2, 1 / math.sqrt(12))
+# Relative Cramér-Rao bound of a parameter that the logs tell.
+TOLD = 0.05
 KINDS = ["angle", "radius", "gauge", "accelerometer"]
 MOTIONS = ["sines", "sweep", "multisine", "moves", "squares"]
 
@@ -154,10 +159,15 @@ class Arm:
         table[1, :2] = self.coulomb + self.offset, self.coulomb - self.offset
         return np.hstack([stiffness, damping]), table
 
+    def tip_shares(self):
+        """Share of each mode's oscillator in what the tip's sensor shows; a gauge shows volts."""
+        shares = self.beam.shares(self.kind)
+        return shares / np.abs(shares[0]) * 20 if self.kind == "gauge" else shares
+
     def tip(self, states, torque, matrices):
-        """What the tip's sensor shows."""
+        """What the tip's sensor shows, and its standard deviation."""
         n, (turn, table) = 1 + MODES, matrices
-        motor, shares = states[:, 0], self.beam.shares(self.kind)
+        motor, shares = states[:, 0], self.tip_shares()
         white = self.rng.standard_normal(motor.size)
         bent = (states[:, 1:n] - motor[:, None]) @ shares
         if self.kind == "accelerometer":
@@ -165,14 +175,14 @@ class Arm:
             friction = np.where(speed > 0, table[1, 0], -table[1, 1])
             hub = np.where(speed != 0, (pull[:, 0] + torque - friction) / table[0, 0], 0.0)
             tip = self.beam.length * (hub + (pull[:, 1:] / table[0, 1:] - hub[:, None]) @ shares)
-            return tip + 0.02 * tip.std() * white
+            return tip + 0.02 * tip.std() * white, 0.02 * tip.std()
         if self.kind == "gauge":
             # Volts, in steps of 2 mV.
-            return np.round((bent / np.abs(shares[0]) * 20 + 0.005 * white) / 0.002) * 0.002
-        return np.round((motor + bent) / self.tip_step + 0.2 * white) * self.tip_step
+            return np.round((bent + 0.005 * white) / 0.002) * 0.002, math.hypot(0.005, 0.002 / math.sqrt(12))
+        return np.round((motor + bent) / self.tip_step + 0.2 * white) * self.tip_step, self.tip_step * STEPPED
 
     def simulate(self, run):
-        """Columns of a log (time, current, motor, tip), and the share of the time at rest."""
+        """Columns of a log (time, current, motor, tip), the share of the time at rest, and what arm_bound.py needs."""
         matrices, fast_s = self.matrices(), self.sample_s / LOOPS
         wait = LOOPS * round(SETTLE_S / self.sample_s)
         t = fast_s * np.arange(LOOPS * round(self.duration_s / self.sample_s) + wait)
@@ -184,17 +194,18 @@ class Arm:
         # A late tip shows the state of some loops before.
         late = round(self.late_s / fast_s)
         counts, states = counts[::LOOPS, 0], states[wait - late : len(states) - late : LOOPS]
-        tip = self.tip(states, self.constant * currents[::LOOPS], matrices)
+        tip, tip_noise = self.tip(states, self.constant * currents[::LOOPS], matrices)
         # At a sample the current steps: what is measured there is the mean of before and after.
         currents = 0.5 * (currents + np.concatenate([currents[:1], currents[:-1]]))[::LOOPS]
-        noise = self.noise * np.sqrt(np.mean(currents**2))
+        true, noise = currents, self.noise * np.sqrt(np.mean(currents**2))
         if self.stepped and noise > 0:
             step = math.sqrt(12) * noise
             currents = np.round(currents / step + self.rng.uniform(-0.5, 0.5)) * step
         else:
-            currents += noise * self.rng.standard_normal(currents.size)
+            currents = currents + noise * self.rng.standard_normal(currents.size)
         time_s = self.sample_s * np.arange(tip.size)
-        return [time_s, currents, counts * self.step, tip], stuck
+        known = (states, self.constant * true, [self.step * STEPPED, tip_noise], self.constant * noise)
+        return [time_s, currents, counts * self.step, tip], stuck, known
 
     def truth(self, modes):
         """The parameters of an arm with so many modes."""
@@ -212,15 +223,19 @@ class Arm:
         text = ["[signals]", 'time = { column = "time", unit = "s" }']
         text += ['current = { column = "current", unit = "A", hold = "measured" }', 'motor = { column = "motor", unit = "rad" }']
         text += [f'tips = [{{ name = "tip", column = "tip", unit = {unit} }}]', "", "[drive]", f"torque_constant = {self.constant!r}"]
-        stuck = []
+        stuck, known = [], []
         for k, run in enumerate(self.runs, 1):
-            columns, rested = self.simulate(run)
+            columns, rested, facts = self.simulate(run)
             stuck.append(rested)
+            known.append(facts)
             rows, head = np.column_stack(columns), "time,current,motor,tip"
             np.savetxt(folder / f"run-{k}.csv", rows, fmt="%.9g", delimiter=",", header=head, comments="")
             text += ["", "[[runs]]", f'file = "run-{k}.csv"']
         (folder / "campaign.toml").write_text("\n".join(text) + "\n")
+        bounds, modelled = arm_bound.bounds(self, known)
         facts = {
+            "bounds": bounds,
+            "modelled": modelled,
             "title": f"{self.kind:13} {self.motion:9} noise {100 * self.noise:.1f} %, {self.beam.omega[0] / 2 / math.pi:.2f} Hz, at rest {max(stuck):.2f}",
             "truth": [self.truth(n) for n in range(MODES)],
             "omega": list(self.beam.omega),
@@ -233,7 +248,7 @@ KEYS = {"inertia": "drive.inertia", "coulomb": "friction.coulomb", "viscous": "f
 
 
 class Result:
-    """One identification: rows (name, value, standard error, truth, warned), value None where it is not given."""
+    """One identification: rows (name, value, standard error, truth, warned, value of slip phases), None where it is not given."""
 
     def __init__(self, folder, command, options):
         facts, path = json.loads((folder / "truth.json").read_text()), folder / "result.json"
@@ -241,6 +256,7 @@ class Result:
         start = time.time()
         subprocess.run([command, "identify", folder / "campaign.toml", *options, "--json", path], capture_output=True)
         self.spent_s, self.title, self.rows, self.warnings = time.time() - start, facts["title"], [], ["no result"]
+        self.told = [name for name, bound in facts["bounds"].items() if bound < TOLD]
         if not path.exists():
             return
         found = json.loads(path.read_text())
@@ -249,11 +265,13 @@ class Result:
         modes = found["beam"]["modes"]
         # Modes without stiffness, which the tip alone shows, have their inertia in that of the hub.
         heavy = sum(m["stiffness"] > 0 for m in found["arm"]["modes"]) if found["arm"] else len(modes)
+        slips = found["methods"]["regression"] or {}
 
         def row(name, estimate, true, key, but=()):
             warned = any(key in f["affects"] for f in warnings if f["code"] not in but)
             given = estimate and estimate["value"] is not None and estimate["value"] != 0.0
-            self.rows.append((name, *((estimate["value"], estimate["std"]) if given else (None, None)), true, warned))
+            slip = (slips.get(key.split(".")[1]) or {}).get("value")
+            self.rows.append((name, *((estimate["value"], estimate["std"]) if given else (None, None)), true, warned, slip))
 
         for name, key in KEYS.items():
             part, last = key.split(".")
@@ -267,7 +285,7 @@ class Result:
 
     def text(self):
         words = []
-        for name, value, std, true, warned in self.rows:
+        for name, value, std, true, warned, _ in self.rows:
             off = "not given" if value is None else f"{100 * (value / true - 1):+.2f} % ({(value - true) / std:+.1f})"
             words.append(f"{name} {off}{' w' if warned else ' WRONG' if is_wrong(value, std, true) else ''}")
         return f"{self.title}, {self.spent_s:.1f} s: {', '.join(words)} | {' '.join(self.warnings)}"
@@ -280,18 +298,22 @@ def is_wrong(value, std, true):
 
 def table(rows):
     """Of the estimates without a warning: how many are wrong, and how many 95 % intervals have the truth."""
-    yield "| parameter | given | not given | warned | wrong | intervals | mean error in standard errors |"
-    yield "| --- | --- | --- | --- | --- | --- | --- |"
+    head = ["parameter", "given", "not given", "warned", "wrong", "intervals", "mean error in standard errors", "rms error over that of slip phases"]
+    yield f"| {' | '.join(head)} |"
+    yield "| --- " * len(head) + "|"
     for name in [*KEYS, "omega", "zeta", ""]:
         own = [r for r in rows if r[0].startswith(name)]
         given = [r for r in own if r[1] is not None]
         silent = [r for r in given if not r[4]]
-        z = np.array([(value - true) / std for _, value, std, true, _ in silent])
+        z = np.array([(value - true) / std for _, value, std, true, *_ in silent])
         wrong = sum(is_wrong(*r[1:4]) for r in silent)
         cover = 100 * np.mean(np.abs(z) < 1.96) if z.size else math.nan
         mean = np.clip(z, -10, 10).mean() if z.size else math.nan
+        # Both errors relative to the truth, where both methods give the parameter.
+        both = np.array([(value / true - 1, slip / true - 1) for _, value, _, true, _, slip in silent if slip is not None])
+        rms = np.sqrt(np.mean(both**2, axis=0)) if name and len(both) else [math.nan, math.nan]
         counts = f"{len(given)} | {len(own) - len(given)} | {len(given) - len(silent)} | {wrong} of {len(silent)}"
-        yield f"| {name or 'all'} | {counts} | {cover:.0f} % | {mean:+.2f} |"
+        yield f"| {name or 'all'} | {counts} | {cover:.0f} % | {mean:+.2f} | {rms[0] / rms[1]:.2f} |"
 
 
 def main(arguments):
@@ -313,6 +335,10 @@ def main(arguments):
             print(i, results[-1].text(), flush=True)
     print(*table([row for result in results for row in result.rows]), sep="\n")
     if results:
+        rows = [{row[0]: row for row in result.rows if row[1] is not None} for result in results]
+        told = [(name in own, name in own and not own[name][4]) for own, r in zip(rows, results) for name in r.told]
+        given, silent = (100 * np.mean(column) for column in zip(*told))
+        print(f"\nOf {len(told)} parameters with a bound below {100 * TOLD:.0f} % {given:.0f} % are given, {silent:.0f} % without a warning.")
         times = sorted(result.spent_s for result in results)
         print(f"\nTime: {times[len(times) // 2]:.1f} s in the median, {times[-1]:.1f} s at most.")
 

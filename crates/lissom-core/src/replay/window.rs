@@ -109,6 +109,14 @@ impl<'a, const D: usize> Replayer<'a, D> {
         self.torque_per_command * run.command()[index.clamp(0, last).cast_unsigned()]
     }
 
+    /// Measured torque at sample `index` for lines between samples: the mean over each interval is that of the cubic polynomial
+    /// through the four samples around it, `(−1, 13, 13, −1)/24`. Lines between the samples themselves would take `(ωT)²/12`
+    /// from a torque at the frequency ω.
+    fn drawn(&self, run: &Run, index: isize) -> f64 {
+        let [before, at, after] = [index - 1, index, index + 1].map(|i| self.torque(run, i));
+        at - (before - 2.0 * at + after) / 12.0
+    }
+
     /// Replays samples `range` from the state `start`; `see` is called at each of them.
     pub(super) fn walk(
         &self,
@@ -183,12 +191,12 @@ impl<'a, const D: usize> Replayer<'a, D> {
 
     /// Measured torque at the lagging time of index `at`, and its slope per sample.
     fn between(&self, run: &Run, at: isize) -> (f64, f64) {
-        let (before, after) = (self.torque(run, at - 1), self.torque(run, at));
+        let (before, after) = (self.drawn(run, at - 1), self.drawn(run, at));
         let slope = after - before;
         if self.lag_share > 0.0 {
             (after - self.lag_share * slope, slope)
         } else {
-            (after, 0.5 * (self.torque(run, at + 1) - before))
+            (after, 0.5 * (self.drawn(run, at + 1) - before))
         }
     }
 

@@ -350,7 +350,9 @@ impl Describe for EstimateFinding {
             | Self::PoorExcitation { parameter, .. }
             | Self::NegativeEstimate { parameter, .. } => parameter.keys(),
             Self::FrictionWithLoad { .. } => vec![key::COULOMB, key::OFFSET],
-            Self::OthersDoubtful => vec![key::COULOMB, key::VISCOUS, key::INERTIA, key::COUPLING],
+            Self::OthersDoubtful => {
+                vec![key::COULOMB, key::VISCOUS, key::INERTIA, key::COUPLING, key::MODES]
+            }
             Self::LineTaken { .. } | Self::CommandSign | Self::PerUnitOfCommand => {
                 vec![key::COULOMB, key::VISCOUS, key::INERTIA]
             }

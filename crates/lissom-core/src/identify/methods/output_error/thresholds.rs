@@ -29,7 +29,7 @@ thresholds! {
         SLOW_RESIDUAL: f64 = 0.003, "1", Convention;
         /// As `SLOW_RESIDUAL`, where noise of the command is estimated from the residual: the arm is refused above it, because
         /// what it lacks may have been taken for noise.
-        SLOW_INNOVATIONS: f64 = 0.05, "1", Convention;
+        SLOW_INNOVATIONS: f64 = 0.2, "1", Convention;
         /// Windows are not lengthened further if a residual is larger than on the first windows by
         /// this factor. Errors of the arm add up over a window, but noise does not.
         RESIDUAL_GROWN: f64 = 1.5, "1", Convention;

@@ -59,7 +59,8 @@ pub(crate) fn add_terms(fitting: &Fitting<'_>, fit: &mut ArmFit, report: &mut Re
     }
 }
 
-/// Removes lags that are not significant: a lag may have been significant only before the arm was found.
+/// Removes lags that are not significant, unless the fit is better with them: a lag may have been significant only before the arm
+/// was found.
 pub(crate) fn drop_lags(fitting: &Fitting<'_>, fit: &mut ArmFit, report: &mut Report) {
     let covariance = fitting.covariances(fit).larger();
     let is_nothing = |(i, p): (usize, &Parameter)| {
@@ -71,12 +72,16 @@ pub(crate) fn drop_lags(fitting: &Fitting<'_>, fit: &mut ArmFit, report: &mut Re
     if gone.is_empty() {
         return;
     }
-    fit.free.retain(|p| !gone.contains(p));
+    let mut without = fit.clone();
+    without.free.retain(|p| !gone.contains(p));
     for p in &gone {
-        p.set(&mut fit.body.arm, 0.0);
+        p.set(&mut without.body.arm, 0.0);
     }
-    report.added.retain(|e| !gone.contains(&e.parameter));
-    fitting.search(fit, report);
+    fitting.search(&mut without, report);
+    if !fitting.is_better(fit, &without) {
+        *fit = without;
+        report.added.retain(|e| !gone.contains(&e.parameter));
+    }
 }
 
 /// Groups of parameters that may be added, each as a whole. Lags of tips are among them if the residual is above the
