@@ -8,6 +8,7 @@ use crate::identify::methods::output_error::thresholds::{
     NEW_MODE_DAMPING, NEW_MODE_FREQUENCIES, NEW_MODE_SHARE, NEW_MODE_STARTS, NEW_MODE_TURN,
     PROBE_STEPS, REPETITIONS_MOST, RESIDUAL_ABOVE_NOISE,
 };
+use crate::identify::responses::thresholds::MODE_DAMPING_MOST;
 use crate::identify::thresholds::PRESENT;
 use crate::replay::{Body, MOST_MODES, ModalArm, Oscillator, Parameter, free_parameters};
 
@@ -66,7 +67,10 @@ fn adds_mode(fitting: &Fitting<'_>, fit: &mut ArmFit, report: &mut Report) -> bo
     let starts = if above_noise { NEW_MODE_STARTS } else { 1 };
     for start in with_one_more(fitting, fit).into_iter().take(starts) {
         let beyond = settled(fitting, start, report);
-        if is_above_others(&beyond.body.arm) && fitting.is_better(&beyond, fit) {
+        let arm = &beyond.body.arm;
+        let oscillates =
+            arm.damping_ratios().last().is_some_and(|ratio| *ratio < MODE_DAMPING_MOST);
+        if is_above_others(arm) && oscillates && fitting.is_better(&beyond, fit) {
             *fit = beyond;
             return true;
         }
