@@ -5,6 +5,8 @@ use crate::lti::first_root::ORDER_MOST;
 
 /// Largest (rate × step): 2²⁵/25! is 2e-18.
 const REACH: f64 = 2.0;
+/// Orders that count at any rate: a torque that is linear in time moves the angle by its cube.
+const ORDERS_LEAST: usize = 3;
 /// A term of a series below this share of the whole does not count.
 const LEAST: f64 = 1e-19;
 
@@ -58,7 +60,7 @@ pub(super) fn reach_s<const D: usize>(rates: &Rates<D>) -> f64 {
 /// rounding.
 pub(super) fn orders<const D: usize>(rates: &Rates<D>, time_s: f64) -> usize {
     let (mut left, mut n) = (1.0, 0);
-    while n < ORDER_MOST && left > LEAST {
+    while n < ORDERS_LEAST || (n < ORDER_MOST && left > LEAST) {
         n += 1;
         left *= rates.rate_per_s * time_s / n as f64;
     }
