@@ -1,5 +1,4 @@
 //! A measured torque between its samples.
-#![expect(clippy::unwrap_used, reason = "a test fails by panicking")]
 
 use lissom::record::{Axis, Campaign, Channels, Command, CommandQuantity, Hold, Run, TimeBase};
 use lissom::replay::{DryTerms, ModalArm, Window, predict};
