@@ -32,7 +32,7 @@ class Model:
     """F, G (of a mean torque, and of one) and C of each mode of the hub, for some parameters."""
 
     def __init__(self, arm, p):
-        n = 1 + arm.beam.omega.size
+        n, self.hub = 1 + arm.beam.omega.size, p["hub"]
         of = lambda name: np.array([p.get(f"{name} {k}", 0.0) for k in range(n - 1)])
         inertia, omega, share = of("inertia"), of("omega"), of("share")
         within, ground = 2 * of("within") * omega * inertia, 2 * of("ground") * omega * inertia
@@ -92,7 +92,7 @@ def of_run(arm, model, changed, names, states, torque, sensors, torque_noise):
             covariance[n], covariance[:, n], dx[n] = 0.0, 0.0, 0.0
         elif after == -way:
             free = (states[k + 1, n] - x[n]) / arm.sample_s
-            jump = (arm.coulomb + arm.offset + arm.coulomb - arm.offset) / arm.hub
+            jump = 2 * arm.coulomb / model.hub
             # Of the accelerations before and after, the mean is about that over the sample.
             ratio = min(max((abs(free) - 0.5 * jump) / (abs(free) + 0.5 * jump), 0.0), 1.0)
             dx[n], covariance[n], covariance[:, n] = ratio * dx[n], ratio * covariance[n], ratio * covariance[:, n]
@@ -101,8 +101,8 @@ def of_run(arm, model, changed, names, states, torque, sensors, torque_noise):
 
 
 def bounds(arm, runs):
-    """Relative bound by name of what is compared, and the number of modes that count as modelled: those from the first on whose
-    inertia has a bound below one half. `runs`: states, torques, the sensors' noise and the torque's, of each run."""
+    """Relative bound by name of what is compared, for an arm with the modes from the first on whose inertia has a bound below one
+    half. `runs`: states, torques, the sensors' noise and the torque's, of each run."""
     p = parameters(arm)
     names = list(p)
     model = Model(arm, p)
@@ -133,4 +133,4 @@ def bounds(arm, runs):
         found[f"omega {k + 1}"] = std({f"omega {k}": 1.0})
         kinds = [kind for kind in ("within", "ground") if f"{kind} {k}" in at]
         found[f"zeta {k + 1}"] = std({f"{kind} {k}": p[f"{kind} {k}"] for kind in kinds}) / arm.damping[k]
-    return found, modes
+    return found

@@ -232,10 +232,8 @@ class Arm:
             np.savetxt(folder / f"run-{k}.csv", rows, fmt="%.9g", delimiter=",", header=head, comments="")
             text += ["", "[[runs]]", f'file = "run-{k}.csv"']
         (folder / "campaign.toml").write_text("\n".join(text) + "\n")
-        bounds, modelled = arm_bound.bounds(self, known)
         facts = {
-            "bounds": bounds,
-            "modelled": modelled,
+            "bounds": arm_bound.bounds(self, known),
             "title": f"{self.kind:13} {self.motion:9} noise {100 * self.noise:.1f} %, {self.beam.omega[0] / 2 / math.pi:.2f} Hz, at rest {max(stuck):.2f}",
             "truth": [self.truth(n) for n in range(MODES)],
             "omega": list(self.beam.omega),

@@ -1,7 +1,10 @@
 //! A measured torque between its samples.
 
+use lissom::arm::Arm;
+use lissom::beam::Beam;
+use lissom::drive::{Coulomb, Motor};
 use lissom::record::{Axis, Campaign, Channels, Command, CommandQuantity, Hold, Run, TimeBase};
-use lissom::replay::{DryTerms, ModalArm, Window, predict};
+use lissom::replay::{ModalArm, Window, predict};
 
 /// A free motor under a measured torque `sin ωt` with ωT = 0.3, against `θ = (v + 1/Jω)·t − sin(ωt)/Jω²`. Lines through the
 /// samples would take (ωT)²/12 = 0.75 % from the torque, the cubic takes `11·(ωT)⁴/720` = 0.012 %: over four periods the angle
@@ -25,20 +28,9 @@ fn a_measured_torque_is_a_cubic_between_samples() {
     let run = Run::new("run", TimeBase::uniform(0.0, t), torque, motor, vec![]).unwrap();
     let channels = Channels { axis: Axis::Rotary, command, tips: vec![] };
     let campaign = Campaign::new(channels, vec![run]).unwrap();
-    let arm = ModalArm {
-        inertia_kg_m2: inertia,
-        viscous_nm_s_per_rad: [0.0; 2],
-        coulomb_nm: 0.0,
-        offset_nm: 0.0,
-        modes: vec![],
-        shapes: vec![],
-        at_points_per_s: vec![],
-        dry_terms: DryTerms::default(),
-        gravity: None,
-        torque_ripples: vec![],
-        command_lag_s: 0.0,
-        tip_lags_s: vec![],
-    };
+    let motor = Motor::new(inertia, 0.0, 1.0).unwrap();
+    let free = Arm::new(Beam::Rigid, motor, Coulomb::symmetric(0.0).unwrap()).unwrap();
+    let arm = ModalArm::of_arm(&free).unwrap();
     let first = 2.0 * t;
     let start = vec![at(first), speed + rate * (1.0 - (omega * first).cos())];
     let window = Window { run: 0, samples: 2..=86, start, zeros: vec![] };

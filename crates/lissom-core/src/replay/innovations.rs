@@ -8,9 +8,10 @@
 //! d(k+1) = A·d(k) + b·(n(k) + n(k+1))/2,   y = ŷ + c·d + v,   e = y − ŷ − c·d,   K = P·cᵀ/S,   S = c·P·cᵀ + σ²
 //! ```
 //!
-//! A measured command is linear between samples, so noise of both of its ends acts. A is from tangents of unit changes of the
-//! state, which include stops and reversals. The innovations e are white with the variance S. Their derivatives are those of ŷ
-//! after the same filter. A controller does not correlate them with the command, as it does residuals of a replay \[Ljung1999\].
+//! A measured command is drawn as a line between samples, so noise of both ends acts; that three samples make an end is left out.
+//! A is from tangents of unit changes of the state, which include stops and reversals. The innovations e are white with the
+//! variance S. Their derivatives are those of ŷ after the same filter. A controller does not correlate them with the command, as it
+//! does residuals of a replay \[Ljung1999\].
 
 use super::noise::Loss;
 use super::tangents::Tangents;
