@@ -10,7 +10,7 @@ const INPUTS: &str = "20000";
 /// The same inputs each time: a change is not blamed for what another seed finds. The time of one input allows for a busy machine, and
 /// that of all for a slow one.
 const LIMITS: [&str; 5] =
-    ["-seed=1", "-timeout=30", "-max_total_time=30", "-rss_limit_mb=1024", "-max_len=65536"];
+    ["-seed=1", "-timeout=30", "-max_total_time=15", "-rss_limit_mb=1024", "-max_len=65536"];
 
 /// Runs each target on its corpus and on changes of it, which are not kept.
 pub(crate) fn short_run(root: &Path, flags: &[String]) -> Result<(), Failure> {

@@ -8,6 +8,8 @@ mod page;
 
 use std::path::{Path, PathBuf};
 use std::process::Command;
+use std::sync::Mutex;
+use std::sync::atomic::{AtomicUsize, Ordering};
 
 use output::{matches, refreshed};
 use page::{Page, Step};
@@ -106,15 +108,22 @@ fn arguments(command: &str) -> Option<Vec<String>> {
 #[test]
 fn every_command_in_the_documents_does_what_they_show() {
     let overwrite = std::env::var("LISSOM_DOCUMENTS").is_ok_and(|v| v == "overwrite");
-    let mut wrong = Vec::new();
-    for page in pages() {
-        // `lissom fleet` needs a feature.
-        if cfg!(not(feature = "fleet")) && FLEET_PAGES.contains(&page.as_str()) {
-            continue;
+    // `lissom fleet` needs a feature.
+    let shown = |page: &String| cfg!(feature = "fleet") || !FLEET_PAGES.contains(&page.as_str());
+    let pages: Vec<String> = pages().into_iter().filter(shown).collect();
+    let (next, wrong) = (AtomicUsize::new(0), Mutex::new(Vec::new()));
+    let one_after_another = || {
+        while let Some(page) = pages.get(next.fetch_add(1, Ordering::Relaxed)) {
+            let start = std::time::Instant::now();
+            wrong.lock().unwrap().extend(differences(page, overwrite));
+            println!("{page}: {:.1} s", start.elapsed().as_secs_f64());
         }
-        let start = std::time::Instant::now();
-        wrong.extend(differences(&page, overwrite));
-        println!("{page}: {:.1} s", start.elapsed().as_secs_f64());
-    }
+    };
+    std::thread::scope(|scope| {
+        for _ in 0..std::thread::available_parallelism().map_or(1, usize::from) {
+            scope.spawn(one_after_another);
+        }
+    });
+    let wrong = wrong.into_inner().unwrap();
     assert!(wrong.is_empty(), "{}", wrong.join("\n\n"));
 }

@@ -207,8 +207,8 @@ impl fmt::Display for OutputErrorFinding {
             Self::FaintMode { omega_rad_s, stiffness_std_share } => write!(
                 f,
                 "the runs hardly excite the highest mode, at {omega_rad_s:.1} rad/s: its stiffness is known to {} % \
-                 only, and other frequencies fit nearly as well. Its frequency and the coupling may be wrong by more \
-                 than their standard errors",
+                 only, and other frequencies fit nearly as well. Its frequency, the inertia and the coupling may be wrong \
+                 by more than their standard errors",
                 significant(100.0 * stiffness_std_share, 2)
             ),
             Self::MoreThanNoise { channel, share } => write!(
@@ -293,9 +293,8 @@ impl Describe for OutputErrorFinding {
                 let beam = [key::COUPLING, key::MODES];
                 [&[key::COULOMB, key::VISCOUS, key::INERTIA, key::GRAVITY][..], &beam].concat()
             }
-            Self::ModesByTheMotor { .. } | Self::FaintMode { .. } => {
-                vec![key::COUPLING, key::MODES]
-            }
+            Self::ModesByTheMotor { .. } => vec![key::COUPLING, key::MODES],
+            Self::FaintMode { .. } => vec![key::INERTIA, key::COUPLING, key::MODES],
             Self::DampingKind { parameters } => {
                 let mut keys = parameters.clone();
                 keys.push(key::MODES);

@@ -215,7 +215,8 @@ fn refitted(fitting: &Fitting<'_>, fit: ArmFit, report: &mut Report) -> ArmFit {
     fit
 }
 
-/// Sets the free parameters to those of the fit's modes. Damping against the frame, lags, and viscous friction by direction stay.
+/// Sets the free parameters to those of the fit's modes. Dampers beyond those within the beam, lags, and viscous friction by
+/// direction stay.
 fn refreed(fitting: &Fitting<'_>, mut fit: ArmFit) -> ArmFit {
     let beside = |p: &Parameter| {
         matches!(p, Parameter::CommandLag | Parameter::ViscousDifference | Parameter::TipLag(_))
@@ -225,6 +226,8 @@ fn refreed(fitting: &Fitting<'_>, mut fit: ArmFit) -> ArmFit {
     fit.free.extend(extra);
     let grounded = fit.body.arm.modes.iter().enumerate().filter(|(_, m)| m.grounded_per_s != 0.0);
     fit.free.extend(grounded.map(|(j, _)| Parameter::DampingGrounded(j)));
+    let at_points = fit.body.arm.at_points_per_s.iter().enumerate().filter(|(_, c)| **c != 0.0);
+    fit.free.extend(at_points.map(|(i, _)| Parameter::DampingAtPoint(i)));
     fit
 }
 
@@ -329,8 +332,6 @@ fn one_beyond(fitting: &Fitting<'_>, fit: &ArmFit, last: usize, omega_rad_s: f64
         let mut fit = fit.clone();
         let arm = &mut fit.body.arm;
         arm.modes[last].stiffness_nm_per_rad -= stiffness;
-        // It may have stood for the new mode.
-        arm.modes.iter_mut().for_each(|mode| mode.grounded_per_s = 0.0);
         for row in &mut arm.shapes {
             row[new] = sign * NEW_MODE_SHARE * row[last];
             row[last] -= row[new];
