@@ -90,6 +90,39 @@ fn models_have_the_damping_that_the_arm_has() {
     }
 }
 
+/// A beam of two masses of which the outer one is measured, with damping of both kinds: the search for the second mode keeps the
+/// damping against the frame that it found with one mode. Without it no second mode describes the tip.
+#[test]
+fn a_further_mode_leaves_the_damping_against_the_frame() {
+    let mut rig = lissom_testmodels::report_rig(Some(14));
+    let report = lissom_testmodels::report_arm();
+    let whole = undamped_span();
+    let half = |mass_share: f64| Span {
+        length_m: 0.5 * whole.length_m,
+        mass_kg: mass_share * whole.mass_kg,
+        damping_n_s_per_m: 0.0,
+        ..whole
+    };
+    let damping = Damping::Proportional { mass_per_s: 0.3, stiffness_s: 1e-3 };
+    let beam = LumpedBeam::new(&[half(0.4), half(0.8)]).unwrap().with_damping(damping).unwrap();
+    rig.arm = Arm::new(beam, report.motor, report.coulomb).unwrap();
+    rig.instruments.tips = vec![rig.instruments.motor; 2];
+    let truth = rig.arm.beam().natural_frequencies_rad_s();
+    let sweep = Reference::chirp(Sweep::Logarithmic, (1.0, 60.0), 0.3, 20.0).unwrap();
+    let sweep = Experiment::new(Drive::Angle(sweep), 20.0).unwrap().settling(Settle::AtOnce);
+    let run = rig.run("sweep", &sweep, 0).unwrap().run;
+    let outer = vec![run.tips()[1].clone()];
+    let (command, motor) = (run.command().to_vec(), run.motor().to_vec());
+    let found = identified(vec![Run::new("sweep", run.time(), command, motor, outer).unwrap()]);
+    assert_eq!(found.beam.modes.len(), 2, "{:?}", found.findings);
+    for (mode, omega_rad_s) in found.beam.modes.iter().zip(&truth) {
+        let ratio = 0.5 * (0.3 / omega_rad_s + 1e-3 * omega_rad_s);
+        let (damping, omega) = (mode.damping_ratio, mode.natural_frequency_rad_s);
+        assert!(standard_errors(damping, ratio) < 5.0, "{damping:?}, true {ratio}");
+        assert!(standard_errors(omega, *omega_rad_s) < 5.0, "{omega:?}, true {omega_rad_s}");
+    }
+}
+
 /// The report's span.
 fn undamped_span() -> Span {
     let beam = lissom_testmodels::report_arm();
