@@ -60,7 +60,8 @@ impl FoundArm {
             let mut arm = oe.arm.clone();
             let before = lag.filter(|lag| !lag.is_delay_of(evidence.campaign));
             arm.command_lag_s += before.map_or(0.0, |lag| lag.time_s);
-            return Some(Self::with(arm, Vec::new(), ArmSource::OutputError, shape, used));
+            let found = Self::with(arm, Vec::new(), ArmSource::OutputError, shape, used);
+            return Some(found.of_logs(evidence.tip_lags_s));
         }
         let supported = &chosen.drive;
         let (Some(_), Some(_)) = (supported.inertia, supported.friction.coulomb) else {
@@ -76,7 +77,16 @@ impl FoundArm {
             }
             _ => arm,
         };
-        Some(Self::with(arm, coupling_alone, ArmSource::Regression, shape, used))
+        let found = Self::with(arm, coupling_alone, ArmSource::Regression, shape, used);
+        Some(found.of_logs(evidence.tip_lags_s))
+    }
+
+    /// The arm of the logs as they are, whose tips are later by `lags_s` than those that it was found with.
+    fn of_logs(mut self, lags_s: &[f64]) -> Self {
+        let own = &mut self.arm.tip_lags_s;
+        own.resize(own.len().max(lags_s.len()), 0.0);
+        own.iter_mut().zip(lags_s).for_each(|(own, lag_s)| *own += lag_s);
+        self
     }
 
     /// The same without its lag of the command, and a campaign whose commands are as late: a filter, and the late goal of a

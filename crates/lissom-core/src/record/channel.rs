@@ -18,6 +18,8 @@ pub enum CommandQuantity {
     Voltage,
     /// Position goal minus angle of a servo \[rad or m\]; its torque constant is the position gain.
     PositionError,
+    /// Torque \[N·m\], or force \[N\] on a linear axis.
+    Effort,
     /// A number of unknown unit (PWM counts, percent). Parameters are then per unit of command.
     Arbitrary,
 }

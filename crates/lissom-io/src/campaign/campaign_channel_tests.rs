@@ -33,10 +33,7 @@ fn a_tip_with_the_samples_of_the_motor_is_refused() {
 fn a_command_in_torque_needs_no_constant() {
     let command = |text: &str| read(text).unwrap().campaign.channels.command;
     let torque = command(&commanded("unit = \"N*m\"", "limit = \"2 N*m\""));
-    assert_eq!(
-        (torque.quantity, torque.torque_per_command),
-        (CommandQuantity::Arbitrary, Some(1.0))
-    );
+    assert_eq!((torque.quantity, torque.torque_per_command), (CommandQuantity::Effort, Some(1.0)));
     assert_eq!(torque.limit, Some(2.0));
     let force = commanded("unit = \"kgf\"", "").replace("unit = \"rad\"", "unit = \"mm\"");
     assert_eq!(command(&force).torque_per_command, Some(1.0));

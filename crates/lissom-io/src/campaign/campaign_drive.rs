@@ -145,7 +145,9 @@ fn torque_constant(
             return Err(CampaignError::TorqueConstantUnit { place: value.place() }.into());
         }
         CommandQuantity::Voltage => value.quantity_of(&[per_ampere, per_volt])?,
-        CommandQuantity::PositionError | CommandQuantity::Arbitrary => (1, value.quantity(effort)?),
+        CommandQuantity::PositionError | CommandQuantity::Effort | CommandQuantity::Arbitrary => {
+            (1, value.quantity(effort)?)
+        }
     };
     if constant == 0.0 || !constant.is_finite() {
         return Err(value.range(crate::config::Rule::NotZero).into());

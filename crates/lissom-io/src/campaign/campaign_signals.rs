@@ -100,7 +100,8 @@ impl CommandKind {
             Self::Current => CommandQuantity::Current,
             Self::Voltage => CommandQuantity::Voltage,
             Self::Goal => CommandQuantity::PositionError,
-            Self::Effort | Self::Unknown => CommandQuantity::Arbitrary,
+            Self::Effort => CommandQuantity::Effort,
+            Self::Unknown => CommandQuantity::Arbitrary,
         }
     }
 

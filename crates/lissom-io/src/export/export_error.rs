@@ -7,8 +7,18 @@ use thiserror::Error;
 #[non_exhaustive]
 pub enum ExportError {
     /// The result has no arm.
-    #[error("{file}: the result has no arm: inertia or Coulomb friction is refused")]
+    #[error(
+        "{file}: the result has no arm: no method gives inertia, Coulomb friction and, where tips are measured, the modes together"
+    )]
     NoArm {
+        /// The result.
+        file: String,
+    },
+    /// The result has a coupling to what is behind the motor, and no modes.
+    #[error(
+        "{file}: the result has a coupling to the tips and no modes, so its arm predicts torque and no motion"
+    )]
+    NoModes {
         /// The result.
         file: String,
     },
@@ -101,7 +111,10 @@ impl ExportError {
         Some(
             match self {
                 Self::NoArm { .. } => {
-                    "read the findings of the result: they say which run is missing"
+                    "read the findings of the result; where only linear models are given, they are in its `models`"
+                }
+                Self::NoModes { .. } => {
+                    "add a sweep through the beam's resonance, or identify without the tip as a rigid axis"
                 }
                 Self::Arm { .. } => "give a [drive] and a beam, as the page arm.toml explains",
                 Self::TooManySpans { .. } => {

@@ -44,7 +44,8 @@ pub struct ExportModel {
 /// The model of a `result.json`.
 ///
 /// # Errors
-/// [`Error::Result`] if the file is no result, [`ExportError::NoArm`] if the result has no arm.
+/// [`Error::Result`] if the file is no result, [`ExportError::NoArm`] if the result has no arm,
+/// [`ExportError::NoModes`] if its arm does not move what is behind the motor.
 pub fn export_model_of_result(path: &Path) -> Result<ExportModel, Error> {
     let file = path.display().to_string();
     let text = crate::read_text::read_text(path)
@@ -65,6 +66,9 @@ pub fn export_model_of_text(file: String, text: &str) -> Result<ExportModel, Err
         key: wrong.key,
         expected: wrong.expected,
     })?;
+    if !found.moves() {
+        return Err(ExportError::NoModes { file }.into());
+    }
     let speeds = result.friction.curve.iter().map(|p| p.speed.value);
     Ok(ExportModel {
         friction_line: friction_line(&result.friction, &found.arm),

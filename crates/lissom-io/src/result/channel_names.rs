@@ -219,16 +219,24 @@ pub enum CommandUnitName {
     A,
     /// A voltage.
     V,
+    /// A torque.
+    #[serde(rename = "N·m")]
+    NewtonMetre,
+    /// A force.
+    #[serde(rename = "N")]
+    Newton,
     /// An unknown unit, or a position error.
     #[serde(rename = "command")]
     Command,
 }
 
 impl CommandUnitName {
-    pub(super) fn of(quantity: CommandQuantity) -> Self {
+    pub(super) fn of(quantity: CommandQuantity, axis: Axis) -> Self {
         match quantity {
             CommandQuantity::Current => Self::A,
             CommandQuantity::Voltage => Self::V,
+            CommandQuantity::Effort if axis == Axis::Rotary => Self::NewtonMetre,
+            CommandQuantity::Effort => Self::Newton,
             CommandQuantity::PositionError | CommandQuantity::Arbitrary => Self::Command,
         }
     }
@@ -238,6 +246,7 @@ impl CommandUnitName {
         let command = match self {
             Self::A => CommandQuantity::Current,
             Self::V => CommandQuantity::Voltage,
+            Self::NewtonMetre | Self::Newton => CommandQuantity::Effort,
             Self::Command => CommandQuantity::Arbitrary,
         };
         UnitNames { torque_known: torque_per_command.is_some(), axis: axis.axis(), command }

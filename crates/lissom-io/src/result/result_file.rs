@@ -217,7 +217,7 @@ impl ResultFile {
             lissom: env!("CARGO_PKG_VERSION").to_owned(),
             axis: AxisName::of(channels.axis),
             torque_per_command: id.torque_per_command,
-            command_unit: CommandUnitName::of(channels.command.quantity),
+            command_unit: CommandUnitName::of(channels.command.quantity, channels.axis),
             from: id.method.and_then(MethodName::of),
             friction: FrictionEntry::of(names, id),
             unused_torque: id

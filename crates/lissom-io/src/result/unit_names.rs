@@ -48,6 +48,8 @@ impl UnitNames {
         match self.command {
             CommandQuantity::Current => "A",
             CommandQuantity::Voltage => "V",
+            CommandQuantity::Effort if self.axis == Axis::Rotary => "N·m",
+            CommandQuantity::Effort => "N",
             CommandQuantity::PositionError | CommandQuantity::Arbitrary => "command",
         }
     }
@@ -71,6 +73,8 @@ impl UnitNames {
         match self.command {
             CommandQuantity::Current => "current",
             CommandQuantity::Voltage => "voltage",
+            CommandQuantity::Effort if self.axis == Axis::Rotary => "torque",
+            CommandQuantity::Effort => "force",
             CommandQuantity::PositionError | CommandQuantity::Arbitrary => "command",
         }
     }

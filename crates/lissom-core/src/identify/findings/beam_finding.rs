@@ -73,7 +73,7 @@ impl fmt::Display for BeamFinding {
             ),
             Self::TipWithoutAngle { tip, acceleration, inertia_with_beam } => write!(
                 f,
-                "the sensor \"{tip}\" {}: the regression gets modes from it, but no coupling{}",
+                "the sensor \"{tip}\" {}: slip phases give modes from it, but no coupling, which is given only where another method has one{}",
                 if *acceleration { "measures acceleration" } else { "has an unknown scale" },
                 if *inertia_with_beam {
                     ". The inertia is approximately that of motor and beam together"

@@ -241,12 +241,12 @@ impl fmt::Display for OutputErrorFinding {
                 "the output-error method {} {:.1} million evaluations, at windows of {window_s:.2} s. The estimates are {}",
                 if *interrupted { "was stopped after" } else { "had not finished after" },
                 *evaluations as f64 / 1e6,
-                if *used { "the best ones found so far" } else { "those of the regression" }
+                if *used { "the best ones found so far" } else { "those of another method" }
             ),
             Self::MotionsPart { window_s } => write!(
                 f,
-                "friction changes over the angle or falls with speed, so motions from nearly equal initial states diverge: \
-                 the runs are simulated in windows of {window_s:.2} s, each from a new initial state"
+                "motions from nearly equal initial states diverge over longer times, by noise of the command, stick-slip, or friction \
+                 that changes over the angle: the runs are simulated in windows of {window_s:.2} s, each from a new initial state"
             ),
         }
     }

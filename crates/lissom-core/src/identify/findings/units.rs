@@ -30,6 +30,8 @@ impl EstimateUnits {
         match self.command {
             CommandQuantity::Current => "A",
             CommandQuantity::Voltage => "V",
+            CommandQuantity::Effort if self.axis == Axis::Rotary => "N·m",
+            CommandQuantity::Effort => "N",
             CommandQuantity::PositionError | CommandQuantity::Arbitrary => "units of command",
         }
     }

@@ -280,7 +280,7 @@ mod tests {
     }
 
     fn chosen(campaign: &Campaign, methods: &Methods) -> (Option<Method>, DriveEstimates) {
-        choose(&Evidence { campaign, used: campaign, runs: &[], methods })
+        choose(&Evidence { campaign, used: campaign, tip_lags_s: &[], runs: &[], methods })
     }
 
     fn third_harmonic() -> ThirdHarmonic {

@@ -42,6 +42,8 @@ pub(crate) struct Evidence<'a> {
     pub(crate) campaign: &'a Campaign,
     /// The runs that the methods used.
     pub(crate) used: &'a Campaign,
+    /// What the runs used have no more of the tips' lags \[s\]; empty if there is none.
+    pub(crate) tip_lags_s: &'a [f64],
     pub(crate) runs: &'a [RunAnalysis],
     pub(crate) methods: &'a Methods,
 }
@@ -50,7 +52,7 @@ impl<'a> Evidence<'a> {
     /// What `methods` found in a prepared campaign.
     pub(crate) fn of(prepared: &'a Prepared<'_>, methods: &'a Methods) -> Self {
         let (campaign, used, runs) = (prepared.campaign(), prepared.used(), prepared.runs());
-        Self { campaign, used, runs, methods }
+        Self { campaign, used, tip_lags_s: prepared.tip_lags_s(), runs, methods }
     }
 
     /// The output-error method, where its arm describes the runs.

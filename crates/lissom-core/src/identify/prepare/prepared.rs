@@ -27,6 +27,8 @@ pub struct Prepared<'a> {
     kept: Vec<usize>,
     used: Cow<'a, Campaign>,
     noise: Vec<RunNoise>,
+    /// By how much each tip is read later than the motor, which is taken out of the runs used \[s\]; empty if none is.
+    tip_lags_s: Vec<f64>,
     findings: Vec<Finding>,
 }
 
@@ -63,7 +65,7 @@ impl<'a> Prepared<'a> {
             findings.extend(found);
         }
         let noise = used.runs.par_iter().map(RunNoise::of).collect();
-        Self { campaign, runs, kept, used, noise, findings }
+        Self { campaign, runs, kept, used, noise, tip_lags_s: Vec::new(), findings }
     }
 
     /// Prepares a campaign with default options and without progress.
@@ -102,6 +104,22 @@ impl<'a> Prepared<'a> {
     #[must_use]
     pub(crate) fn using(&self, used: Campaign) -> Self {
         Self { used: Cow::Owned(used), ..self.clone() }
+    }
+
+    /// The same with the readings of a tip taken earlier, which are too late by `lag_s`.
+    #[must_use]
+    pub(crate) fn with_tip_taken_earlier(&self, tip: usize, lag_s: f64) -> Self {
+        let used = self.used();
+        let runs = used.runs.iter().map(|run| run.clone().with_tip_taken_earlier(tip, lag_s));
+        let mut earlier = self.using(Campaign { runs: runs.collect(), ..used.clone() });
+        earlier.tip_lags_s.resize(used.channels.tips.len(), 0.0);
+        earlier.tip_lags_s[tip] += lag_s;
+        earlier
+    }
+
+    /// By how much each tip is read later than the motor, which is taken out of the runs used \[s\]; empty if none is.
+    pub(crate) fn tip_lags_s(&self) -> &[f64] {
+        &self.tip_lags_s
     }
 
     /// Indices of the used runs in the campaign.

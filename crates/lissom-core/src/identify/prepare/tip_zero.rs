@@ -32,11 +32,7 @@ struct TipZero {
 /// nothing. Otherwise κ·z would be taken for a constant load.
 pub(crate) fn without_tip_zeros(campaign: &Campaign) -> Option<(Campaign, Vec<Finding>)> {
     let tips = &campaign.channels.tips;
-    let zeros: Vec<Vec<Option<TipZero>>> = campaign
-        .runs
-        .iter()
-        .map(|run| (0..tips.len()).map(|i| zero(&tips[i], run, i)).collect())
-        .collect();
+    let zeros = of_runs(campaign);
     if zeros.iter().flatten().all(Option::is_none) {
         return None;
     }
@@ -51,6 +47,18 @@ pub(crate) fn without_tip_zeros(campaign: &Campaign) -> Option<(Campaign, Vec<Fi
     let runs = campaign.runs.iter().zip(&zeros).map(corrected).collect::<Option<_>>()?;
     let findings = (0..tips.len()).filter_map(|i| reported(&tips[i], &zeros, i)).collect();
     Some((Campaign { runs, ..campaign.clone() }, findings))
+}
+
+/// What [`without_tip_zeros`] takes off, by run and tip.
+pub(crate) fn tip_zeros(campaign: &Campaign) -> Vec<Vec<f64>> {
+    let value = |zero: Option<TipZero>| zero.map_or(0.0, |z| z.value);
+    of_runs(campaign).into_iter().map(|run| run.into_iter().map(value).collect()).collect()
+}
+
+fn of_runs(campaign: &Campaign) -> Vec<Vec<Option<TipZero>>> {
+    let tips = &campaign.channels.tips;
+    let of_run = |run: &Run| (0..tips.len()).map(|i| zero(&tips[i], run, i)).collect();
+    campaign.runs.iter().map(of_run).collect()
 }
 
 /// A finding where the zero is no small part of what the beam bends by.

@@ -5,6 +5,7 @@ use std::ops::Range;
 use nalgebra::{DMatrix, DVector};
 
 use crate::identify::methods::output_error::{Masks, masks};
+use crate::identify::prepare::tip_zero::tip_zeros;
 use crate::identify::validation::kernel::Kernel;
 use crate::identify::validation::torque_arm::TorqueArm;
 use crate::record::{Campaign, Hold, Run, TipQuantity};
@@ -19,20 +20,15 @@ use crate::replay::ModalArm;
 /// ```
 ///
 /// where all rates are those of the window and nearly nothing: an arm whose beam is another one hardly moves
-/// z_i, unlike that of a replay, which takes up what the arm misses; where no mode is known, the rates are left out. Zeros where
-/// the tips do not show the modes.
+/// z_i, unlike that of a replay, which takes up what the arm misses. Zeros where the tips do not show the modes; where no mode is
+/// known, those that the regression takes off.
 pub(in crate::identify) fn zeros(found: TorqueArm<'_>, campaign: &Campaign) -> Vec<Vec<f64>> {
     let arm = found.arm;
     let tips = campaign.channels.tips.len();
-    let masks = masks(campaign);
-    let runs = || campaign.runs.iter().zip(&masks);
     if !found.moves() {
-        let straight = |(run, masks): (&Run, &Masks)| {
-            let deflection = Deflection::of(arm, campaign, run, &longest_read(masks, run.len()));
-            deflection.map_or_else(|| vec![0.0; tips], |d| d.mean.iter().copied().collect())
-        };
-        return runs().map(straight).collect();
+        return tip_zeros(campaign);
     }
+    let masks = masks(campaign);
     let n = arm.modes.len();
     let square = n > 0 && arm.shapes.len() == n && tips == n;
     let shapes = square.then(|| DMatrix::from_fn(n, n, |i, j| arm.shapes[i][j]));
@@ -44,7 +40,7 @@ pub(in crate::identify) fn zeros(found: TorqueArm<'_>, campaign: &Campaign) -> V
         of_run(arm, campaign, run, &longest_read(masks, run.len()), &shapes, &in_modes)
             .unwrap_or_else(|| vec![0.0; tips])
     };
-    runs().map(of_run).collect()
+    campaign.runs.iter().zip(&masks).map(of_run).collect()
 }
 
 /// `y_i − θ` of each tip in time with the motor, under one window over a run.

@@ -195,6 +195,8 @@ fn go_on(fitting: &Fitting<'_>, mut fit: ArmFit, mut report: Report) -> Attempt 
     make(modes::drop_impossible, fitting, &mut fit, &mut report);
     make(modes::lighten, fitting, &mut fit, &mut report);
     make(settle, fitting, &mut fit, &mut report);
+    // Whatever the search had time for, no mode is given that the motor is not known to show.
+    modes::lighten(fitting, &mut fit, &mut report);
     let without_repeats = fitting.count_steps(&mut fit, &mut report);
     let left = left_over(fitting.campaign, &fit, fitting.masks);
     Attempt { fit, report, without_repeats, left }

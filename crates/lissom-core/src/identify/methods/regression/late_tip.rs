@@ -68,10 +68,7 @@ fn late_by(prepared: &mut Prepared<'_>, tip: usize) -> Option<Estimate> {
         if total.is_none() && lag_s.value.abs() < CLEARLY_PRESENT * lag_s.std {
             return None;
         }
-        let used = prepared.used();
-        let runs = used.runs.iter();
-        let runs = runs.map(|run| run.clone().with_tip_taken_earlier(tip, lag_s.value)).collect();
-        *prepared = prepared.using(Campaign { runs, ..used.clone() });
+        *prepared = prepared.with_tip_taken_earlier(tip, lag_s.value);
         let value = lag_s.value + total.map_or(0.0, |total| total.value);
         total = Some(Estimate { value, std: lag_s.std });
     }

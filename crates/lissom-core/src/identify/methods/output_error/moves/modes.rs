@@ -144,8 +144,8 @@ fn beside_another(arm: &ModalArm) -> Option<usize> {
     (0..modes.len()).find(|i| (0..modes.len()).any(|j| is_one(*i, j)))
 }
 
-/// Takes the stiffness out of modes above the first whose stiffness is not known to be more than nothing, and out of overdamped
-/// ones: the tips show them, and the motor does not. Their inertia is then part of that of the motor.
+/// Takes the stiffness out of modes above the first whose stiffness is not known to be more than nothing, where the arm is not
+/// worse or the standard error exceeds it, and out of overdamped ones: the tips show them, and the motor does not. Their inertia is then part of that of the motor.
 pub(crate) fn lighten(fitting: &Fitting<'_>, fit: &mut ArmFit, report: &mut Report) {
     for mode in (0..fit.body.arm.modes.len()).rev() {
         let of_beam = fit.body.arm.modes.iter().filter(|m| m.stiffness_nm_per_rad > 0.0).count();
@@ -159,7 +159,7 @@ pub(crate) fn lighten(fitting: &Fitting<'_>, fit: &mut ArmFit, report: &mut Repo
         light.body.arm.modes[mode].stiffness_nm_per_rad = 0.0;
         light.free.retain(|p| *p != Parameter::Stiffness(mode));
         fitting.search(&mut light, report);
-        if overdamped || fitting.is_better(&light, fit) {
+        if overdamped || known > 1.0 || fitting.is_better(&light, fit) {
             *fit = light;
         }
     }
