@@ -74,5 +74,9 @@ fn viscous_friction_is_that_of_the_motor() {
         assert!((coupling.value / GEAR - 1.0).abs() < 0.01, "{late_s}: {coupling:?}");
         let said = found.findings.iter().any(|f| f.code() == "tip-read-late");
         assert_eq!(said, late_s > 0.0, "{:?}", found.findings);
+        // The arm is that of the logs as they are.
+        let arm = found.arm.as_ref().unwrap();
+        let lag_s = arm.arm.tip_lags_s.first().copied().unwrap_or(0.0);
+        assert!((lag_s - late_s).abs() < 1e-4, "{late_s}: {lag_s}");
     }
 }

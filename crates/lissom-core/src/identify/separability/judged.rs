@@ -35,7 +35,15 @@ impl Judged {
     pub(super) fn of_replay(oe: &OutputError, used: &Campaign) -> Self {
         let back_emf = used.channels.command.back_emf_viscous;
         let arm = &oe.arm;
-        let all = ArmParameter::of(arm).into_iter().chain([ArmParameter::Offset]);
+        // Modes that only the tips show are not given.
+        let light = |p: &ArmParameter| match p {
+            ArmParameter::Frequency(j) | ArmParameter::Damping(j) => {
+                arm.modes[*j].stiffness_nm_per_rad == 0.0
+            }
+            _ => false,
+        };
+        let all = ArmParameter::of(arm).into_iter().filter(|p| !light(p));
+        let all = all.chain([ArmParameter::Offset]);
         let (mut parameters, mut columns) = (Vec::new(), Vec::new());
         let mut of_estimates = Vec::new();
         for parameter in all {
