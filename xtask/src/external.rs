@@ -1,4 +1,4 @@
-//! The experiments of the virtual rig with independent simulators: `xtask/external/compare.py` in a Python
+//! The experiments of the virtual rig with independent simulators: `evidence/independent/compare.py` in a Python
 //! environment under `target`, with the versions that `requirements.txt` pins. Then exports loaded by the programs that they
 //! are for (`exports.py`), log files of other libraries read, and MuJoCo's own identification of the same logs
 //! (`sysid.py`).
@@ -23,7 +23,7 @@ struct Python {
 impl Python {
     /// Builds the environment if it is missing.
     fn new(root: &Path) -> Result<Self, Failure> {
-        let scripts = root.join("xtask/external");
+        let scripts = root.join("evidence/independent");
         let environment =
             PythonEnvironment::new(root, "external", &scripts.join("requirements.txt"))?;
         Ok(Self { program: environment.program, scripts })

@@ -9,6 +9,7 @@ mod deny;
 mod examples;
 mod external;
 mod fuzz;
+mod lines;
 mod measured;
 mod python_environment;
 mod release;
@@ -117,6 +118,12 @@ const RECIPES: &[Recipe] = &[
         about: "write the schemas in docs/ from the Rust types of lissom's files",
         takes: Takes::Flags(&[]),
         run: schemas,
+    },
+    Recipe {
+        name: "lines",
+        about: "count the lines of code of each crate, without tests, comments and blank lines",
+        takes: Takes::Flags(&[]),
+        run: lines,
     },
     Recipe {
         name: "external",
@@ -282,6 +289,11 @@ fn package(context: &Context) -> Result<(), Failure> {
 /// Builds the static binary.
 fn static_binary(context: &Context) -> Result<(), Failure> {
     release::static_binary(&context.root)
+}
+
+/// Counts lines of code.
+fn lines(context: &Context) -> Result<(), Failure> {
+    lines::print(&context.root)
 }
 
 /// Runs the fuzz targets.

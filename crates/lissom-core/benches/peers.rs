@@ -1,4 +1,4 @@
-//! lissom's own estimates for `benches/peers/run.py`, which compares them with those of other tools.
+//! lissom's own estimates for `evidence/peers/run.py`, which compares them with those of other tools.
 //!
 //! `cargo bench -p lissom-core --bench peers -- FOLDER`: each `*.beam.csv` of the folder (length, EI and
 //! mass of a span per line, base to tip) is measured with the `*.omega.csv` beside it. What comes

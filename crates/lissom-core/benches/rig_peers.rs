@@ -1,4 +1,4 @@
-//! lissom's own estimates for `benches/peers/rig.py`, which compares them with those of other tools.
+//! lissom's own estimates for `evidence/peers/rig.py`, which compares them with those of other tools.
 //!
 //! `cargo bench -p lissom-core --bench rig_peers -- FILE`: 60 s of the report's arm in its loop, with
 //! up to 80 masses too, and a batch of experiments on one thread and on two.

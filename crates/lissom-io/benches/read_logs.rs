@@ -1,4 +1,4 @@
-//! lissom's own times and sums for `benches/peers/logs.py`, which compares them with those of other tools.
+//! lissom's own times and sums for `evidence/peers/logs.py`, which compares them with those of other tools.
 //!
 //! `cargo bench -p lissom-io --features full --bench read_logs -- FOLDER FILE`: the logs `FOLDER/csv/*.csv` on one thread and on
 //! two, and each file of `FOLDER/binary` beside the decompression alone of `FOLDER/compressed/NAME.gz`, which has the

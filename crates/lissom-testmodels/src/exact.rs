@@ -2,7 +2,7 @@
 //! from base to tip with a division a mass: not the form that lissom runs.
 //!
 //! In doubles that recursion loses a factor of some 1e5 at 1000 spans, and 1e9 where EI differs by
-//! as much; 106 bits can spare it. `benches/peers/run.py` holds the same against 200 bits at
+//! as much; 106 bits can spare it. `evidence/peers/run.py` holds the same against 200 bits at
 //! 100 000 spans. Hub, payload and dampers are left out.
 
 use lissom::beam::LumpedBeam;

@@ -1,13 +1,17 @@
 //! What was done to a log when it was read.
 
+use strum::{IntoStaticStr, VariantNames};
+
 use super::other_clock::OtherClock;
 
 /// A change that was made to a log when it was read into a [`Run`](super::Run), and that its user should know.
-#[derive(Debug, Clone, PartialEq)]
+/// The names of its kinds are the codes of findings.
+#[derive(Debug, Clone, PartialEq, IntoStaticStr, VariantNames)]
+#[strum(serialize_all = "kebab-case")]
 #[non_exhaustive]
 pub enum Note {
     /// The log was cut at gaps in its time stamps.
-    GapCut {
+    Gap {
         /// Number of gaps.
         count: usize,
         /// Stamp before the longest gap \[s\].

@@ -20,6 +20,7 @@ use crate::identify::findings::response_finding::ResponseFinding;
 use crate::identify::findings::run_finding::RunFinding;
 use crate::identify::findings::severity::Severity;
 use crate::identify::findings::validation_finding::ValidationFinding;
+use crate::record::Note;
 
 /// Declares the enum of all areas, the conversions into it and the list of codes.
 macro_rules! areas {
@@ -57,6 +58,8 @@ areas! {
     Channel(ChannelFinding),
     /// Time stamps and samples of a log.
     Log(LogFinding),
+    /// What was done to a log when it was read.
+    Note(Note),
     /// What kind of motion a run is.
     Run(RunFinding),
     /// Friction from constant velocities.
@@ -111,6 +114,7 @@ impl FindingKind {
             Self::Regression(_)
             | Self::FrictionLaw(_)
             | Self::Log(_)
+            | Self::Note(_)
             | Self::OutputError(OutputErrorFinding::ModesByTheMotor { .. })
             | Self::Estimate(EstimateFinding::Offset { .. }) => 0,
             Self::Response(_) | Self::Estimate(EstimateFinding::NoPairs) => 2,

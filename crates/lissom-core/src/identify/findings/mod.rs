@@ -15,6 +15,7 @@ mod finding;
 mod finding_kind;
 mod friction_law_finding;
 mod log_finding;
+mod note;
 mod number_text;
 mod output_error_finding;
 mod payload_finding;

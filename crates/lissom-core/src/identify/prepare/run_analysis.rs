@@ -250,7 +250,7 @@ fn time_base(run: &Run, findings: &mut Vec<Finding>) {
         };
         findings.push(Finding::of_run(run.name(), found));
     }
-    let notes = run.notes().iter().map(LogFinding::from);
+    let notes = run.notes().iter().cloned();
     findings.extend(notes.map(|note| Finding::of_run(run.name(), note)));
 }
 

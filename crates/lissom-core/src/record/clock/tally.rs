@@ -89,7 +89,7 @@ impl Tally {
         }
         if self.gaps > 0 {
             let (at_s, length_s) = self.longest_gap;
-            notes.push(Note::GapCut { count: self.gaps, at_s, length_s });
+            notes.push(Note::Gap { count: self.gaps, at_s, length_s });
         }
         if self.dropped > 0 {
             let (count, at_s, samples) = (self.dropped, self.dropped_at_s, self.dropped_samples);

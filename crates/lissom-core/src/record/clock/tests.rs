@@ -107,7 +107,7 @@ fn a_counted_log_keeps_its_pause() {
     assert_eq!(even.parts.iter().map(|part| part.motor.len()).collect::<Vec<_>>(), [9000, 10_600]);
     let notes = &even.parts[0].notes;
     assert!(
-        matches!(notes[..], [Note::SampleCount { .. }, Note::GapCut { count: 1, .. }]),
+        matches!(notes[..], [Note::SampleCount { .. }, Note::Gap { count: 1, .. }]),
         "{notes:?}"
     );
 }
@@ -156,10 +156,8 @@ fn long_gaps_cut_and_are_one_note() {
     let even = even_parts(rows(&log, &kept, |k| log.time_s[k]), &Trim::default(), 50).unwrap();
     assert_eq!((even.cuts, even.parts.len()), (19, 19));
     let notes = &even.parts[0].notes;
-    let [
-        Note::GapCut { count: 19, length_s, .. },
-        Note::PieceDropped { count: 1, samples: 10, .. },
-    ] = notes[..]
+    let [Note::Gap { count: 19, length_s, .. }, Note::PieceDropped { count: 1, samples: 10, .. }] =
+        notes[..]
     else {
         panic!("{notes:?}")
     };

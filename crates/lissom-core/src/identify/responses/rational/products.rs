@@ -13,7 +13,7 @@ const BLOCK: usize = 512;
 /// `Aᵀ·A` of the matrix whose columns of `rows` each stand one after another.
 ///
 /// One half is multiplied and no column copied, where `gemm` multiplies both halves and packs the columns before:
-/// of few columns that takes longer (`benches/rational` has the times of whole fits). Nor has it transposed views,
+/// of few columns that takes longer (`evidence/rational` has the times of whole fits). Nor has it transposed views,
 /// of which `gemm` reads beyond the last column where there are five or fewer (nalgebra 0.34.2).
 pub(super) fn products(a: &[f64], rows: usize) -> DMatrix<f64> {
     let columns: Vec<&[f64]> = a.chunks_exact(rows).collect();

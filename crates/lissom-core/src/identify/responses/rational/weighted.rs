@@ -9,7 +9,7 @@ use rayon::iter::{IntoParallelRefIterator, ParallelIterator};
 use crate::identify::responses::correct::Response;
 use crate::identify::responses::rational::shared_poles_error::SharedPolesError;
 
-/// Points times columns from which on an output is worth a thread (`benches/rational`).
+/// Points times columns from which on an output is worth a thread (`evidence/rational`).
 const WORTH_A_THREAD: usize = 16_000;
 
 /// Responses of outputs to one input, on one grid of frequencies.

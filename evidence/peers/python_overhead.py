@@ -1,6 +1,6 @@
 """What Python adds to Rust: noisy simulations with an estimate each, one campaign of files, and large arrays.
 
-    python benches/peers/python_overhead.py [CAMPAIGNS]
+    python evidence/peers/python_overhead.py [CAMPAIGNS]
 
 needs the wheel (`cargo xtask wheel`), `cargo build --release -p lissom-cli`, and the example `6_scatter`, which it builds.
 Medians of five repetitions in turn; both use all cores.

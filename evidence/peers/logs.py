@@ -1,4 +1,4 @@
-"""Measures reading of logs beside polars and pandas: `python benches/peers/logs.py`. See README.md."""
+"""Measures reading of logs beside polars and pandas: `python evidence/peers/logs.py`. See README.md."""
 
 import argparse
 import gzip

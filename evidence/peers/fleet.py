@@ -1,6 +1,6 @@
 """What a fleet costs: for each log, for scheduling, with one worker and two, on Dask; memory of the workers; 10⁶ logs.
 
-    python benches/peers/fleet.py [LOGS]
+    python evidence/peers/fleet.py [LOGS]
 
 needs the wheel (`cargo xtask wheel`) and `distributed`. Logs are of 6 s at 2 ms. Medians of three repetitions in turn.
 """

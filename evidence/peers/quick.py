@@ -1,4 +1,4 @@
-"""Measures `lissom identify --quick` beside numpy and scipy: `python benches/peers/quick.py [--runs N]`. See README.md."""
+"""Measures `lissom identify --quick` beside numpy and scipy: `python evidence/peers/quick.py [--runs N]`. See README.md."""
 
 import argparse
 import json

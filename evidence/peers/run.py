@@ -1,4 +1,4 @@
-"""Measures lissom beside other tools: `python benches/peers/run.py [--quick]`. See README.md."""
+"""Measures lissom beside other tools: `python evidence/peers/run.py [--quick]`. See README.md."""
 
 import argparse
 import json

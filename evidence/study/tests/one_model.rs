@@ -162,10 +162,18 @@ fn simulated_drives() {
 
 /// Each set with its log files, and the campaign that describes them.
 const SETS: [(&str, &str, &str); 4] = [
-    ("emps", "DATA_EMPS.csv", include_str!("../../lissom-cli/tests/measured/emps.toml")),
-    ("emps", "DATA_EMPS_PULSES.csv", include_str!("../../lissom-cli/tests/measured/emps.toml")),
-    ("cu-flexarm", "", include_str!("../../lissom-cli/tests/measured/cu-rigid.toml")),
-    ("krauss-slfr", "", include_str!("../../lissom-cli/tests/measured/krauss-fixed.toml")),
+    ("emps", "DATA_EMPS.csv", include_str!("../../../crates/lissom-cli/tests/measured/emps.toml")),
+    (
+        "emps",
+        "DATA_EMPS_PULSES.csv",
+        include_str!("../../../crates/lissom-cli/tests/measured/emps.toml"),
+    ),
+    ("cu-flexarm", "", include_str!("../../../crates/lissom-cli/tests/measured/cu-rigid.toml")),
+    (
+        "krauss-slfr",
+        "",
+        include_str!("../../../crates/lissom-cli/tests/measured/krauss-fixed.toml"),
+    ),
 ];
 
 #[test]

@@ -1,6 +1,6 @@
 """The virtual rig beside hand-written loops: 60 s of the report's arm, and 1000 noisy experiments.
 
-`python benches/peers/rig.py` prints three tables. Times are the least of some
+`python evidence/peers/rig.py` prints three tables. Times are the least of some
 calls. Every way closes the same loop: 20 000 samples of
 3 ms on 0.5 rad and 3 rad/s, an arm that sticks. Errors are of the motor's angle against figures of
 50 digits (`crates/lissom-core/tests/rig_reference.rs`). `--no-scipy` leaves the slow one out.
