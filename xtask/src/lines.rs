@@ -69,13 +69,15 @@ fn count(text: &str) -> Count {
 fn rust_files(folder: &Path, files: &mut Vec<PathBuf>) -> Result<(), Failure> {
     let entries = fs::read_dir(folder).map_err(|source| failed(folder, source))?;
     for path in entries.flatten().map(|entry| entry.path()) {
-        let name =
-            path.file_name().map(|name| name.to_string_lossy().into_owned()).unwrap_or_default();
+        let stem = path.file_stem().unwrap_or_default().to_string_lossy();
         if path.is_dir() {
-            if !LEFT_OUT.contains(&name.as_str()) {
+            if !LEFT_OUT.contains(&&*stem) {
                 rust_files(&path, files)?;
             }
-        } else if name.ends_with(".rs") && !name.ends_with("_tests.rs") && name != "tests.rs" {
+        } else if path.extension().is_some_and(|ending| ending == "rs")
+            && stem != "tests"
+            && !stem.ends_with("_tests")
+        {
             files.push(path);
         }
     }

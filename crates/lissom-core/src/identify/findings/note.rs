@@ -11,7 +11,6 @@ use crate::record::clock::thresholds::RESAMPLING_ERROR;
 use crate::record::other_clock::OtherClock;
 
 impl fmt::Display for Note {
-    #[expect(clippy::too_many_lines, reason = "one sentence for each note")]
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             Self::Gap { count: 1, at_s, length_s } => write!(
