@@ -87,7 +87,7 @@ pub fn parameter_rows(
     let forward = given(c.forward.as_ref());
     let backward = given(c.backward.as_ref());
     let offset = given(c.offset.as_ref());
-    if names.torque_known && names.command_unit() != names.torque_unit() {
+    if names.command_unit() != names.torque_unit() {
         let unit = names.command_unit().to_owned();
         let in_command = mean_coulomb.map(|e| e.scaled(1.0 / constant));
         add(COULOMB, coulomb, in_command, unit, mean.map(|m| m / constant));

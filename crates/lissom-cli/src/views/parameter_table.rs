@@ -29,7 +29,7 @@ pub(crate) fn parameters(names: UnitNames, result: &ResultFile, reference: Optio
         [row.name, value, row.unit, within].into_iter().chain(known).collect()
     }));
     table(&rows);
-    if names.torque_known && names.command_unit() != names.torque_unit() {
+    if names.command_unit() != names.torque_unit() {
         let per_command = names.torque_unit();
         line(&format!(
             "Values with {per_command} or {} contain any error of the torque constant; the standard errors do not.",

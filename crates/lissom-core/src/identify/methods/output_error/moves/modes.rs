@@ -145,7 +145,8 @@ fn beside_another(arm: &ModalArm) -> Option<usize> {
 }
 
 /// Takes the stiffness out of modes above the first whose stiffness is not known to be more than nothing, where the arm is not
-/// worse or the standard error exceeds it, and out of overdamped ones: the tips show them, and the motor does not. Their inertia is then part of that of the motor.
+/// worse or the standard error exceeds it, and out of overdamped ones: the tips show them, and the motor does not. Their inertia
+/// is then part of that of the motor.
 pub(crate) fn lighten(fitting: &Fitting<'_>, fit: &mut ArmFit, report: &mut Report) {
     for mode in (0..fit.body.arm.modes.len()).rev() {
         let of_beam = fit.body.arm.modes.iter().filter(|m| m.stiffness_nm_per_rad > 0.0).count();
