@@ -87,13 +87,13 @@ pub fn parameter_rows(
     let forward = given(c.forward.as_ref());
     let backward = given(c.backward.as_ref());
     let offset = given(c.offset.as_ref());
-    if names.command_unit() != names.torque_unit() {
+    if names.command_unit() == names.torque_unit() {
+        add(COULOMB, coulomb, mean_coulomb, torque(), mean);
+    } else {
         let unit = names.command_unit().to_owned();
         let in_command = mean_coulomb.map(|e| e.scaled(1.0 / constant));
         add(COULOMB, coulomb, in_command, unit, mean.map(|m| m / constant));
         add(COULOMB, "  as a torque", mean_coulomb, torque(), mean);
-    } else {
-        add(COULOMB, coulomb, mean_coulomb, torque(), mean);
     }
     if mean_coulomb.is_none() {
         // One direction only: friction and a constant load are one number.
