@@ -1,6 +1,6 @@
-"""The virtual rig beside hand-written loops: 60 s of the report's arm, and 1000 noisy experiments.
+"""The virtual rig beside hand-written loops: 60 s of the report's arm.
 
-`python evidence/peers/rig.py` prints three tables. Times are the least of some
+`python evidence/peers/rig.py` prints two tables. Times are the least of some
 calls. Every way closes the same loop: 20 000 samples of
 3 ms on 0.5 rad and 3 rad/s, an arm that sticks. Errors are of the motor's angle against figures of
 50 digits (`crates/lissom-core/tests/rig_reference.rs`). `--no-scipy` leaves the slow one out.
@@ -31,7 +31,6 @@ AIR = 0.06
 T, SAMPLES = 0.003, 20_000
 KP, KD, LIMIT = 8.0, 0.2, 4.12
 AMPLITUDE, OMEGA = 0.5, 3.0
-SETTLE = 667
 # Sample and θ_m [rad] in 50 digits.
 REFERENCE = [
     (100, 0.36849283479284844),
@@ -185,55 +184,6 @@ def closed_loop(phi, gamma, phi_stuck):
     return angle
 
 
-def basis():
-    """1, sine and cosine of both harmonics at each sample, and the record's end."""
-    periods = math.floor((SAMPLES - SETTLE) * T * OMEGA / math.tau)
-    end = SETTLE + round(periods * math.tau / OMEGA / T)
-    phase = OMEGA * T * np.arange(end)
-    rows = [np.ones(end), np.sin(phase), np.cos(phase), np.sin(3 * phase), np.cos(3 * phase)]
-    return np.ascontiguousarray(np.array(rows).T)
-
-
-@numba.njit(parallel=True)
-def batch(count, noise, table, phi, gamma, phi_stuck):
-    """Sums of current and angle over the table, and sticks, of `count` experiments."""
-    sums, sticks = np.zeros((count, 2, 5)), np.zeros(count)
-    for run in numba.prange(count):
-        np.random.seed(run)
-        x, y = np.zeros(4), np.zeros(4)
-        mode, before, total = 0, 0.0, np.zeros((2, 5))
-        for k in range(table.shape[0]):
-            read = x[0] + noise * np.random.standard_normal()
-            error = AMPLITUDE * table[k, 1] - read
-            if k == 0:
-                before = error
-            current = min(max(KP * error + KD / T * (error - before), -LIMIT), LIMIT)
-            before = error
-            if k >= SETTLE:
-                for i in range(5):
-                    total[0, i] += current * table[k, i]
-                    total[1, i] += read * table[k, i]
-            mode, stuck = _sample(x, K * current, mode, phi, gamma, phi_stuck, y)
-            sticks[run] += stuck
-        sums[run] = total
-    return sums, sticks
-
-
-def friction(sums, table):
-    """CF/K [A] by (27) with the known linear part."""
-    kept = table[SETTLE:]
-    c = sums @ np.linalg.inv(kept.T @ kept)
-    current, motor = (c[:, i, 4] - 1j * c[:, i, 3] for i in (0, 1))
-    first = c[:, 1, 2] - 1j * c[:, 1, 1]
-    s = 3j * OMEGA
-    tip = OMEGA2 / (s * s + AIR * s + OMEGA2)
-    linear = K / (J * s * s + V * s + COUPLING * (1 - tip))
-    half = 1.5 * OMEGA * T
-    hold = math.sin(half) / half * np.exp(-1j * half)
-    turn = 1j * 4 / (3 * math.pi) * np.exp(3j * np.angle(first))
-    return ((current * hold - motor / linear) / turn).real
-
-
 def by_scipy(rtol=1e-9, atol=1e-12):
     """The same loop by an adaptive Runge-Kutta of order 8 with events."""
     x, mode, before, angle = np.zeros(4), 0, 0.0, np.empty(SAMPLES)
@@ -323,27 +273,6 @@ def main():
     for row in own["growth"]:
         n, loop = row["masses"], row["loop_s"]
         print(f"| {n} | {loop * 1e3:.3g} ms | {loop / n * 1e3:.3g} ms | {row['prepare_s'] * 1e3:.2g} ms |")
-
-    table = basis()
-    print("\n| 1000 experiments with noise | 1 thread | 2 threads | ratio | CF/K [A] | spread [A] | sticks |")
-    print("|---|---|---|---|---|---|---|")
-    for mine in own["batches"]:
-        noise, figure = mine["noise_rad"], np.array(mine["coulomb_a"])
-        times = []
-        for threads in (1, 2):
-            numba.set_num_threads(threads)
-            batch(4, noise, table, *dense)
-            seconds, (sums, sticks) = least(lambda: batch(1000, noise, table, *dense))
-            times.append(seconds)
-        theirs = friction(sums, table)
-        for name, one, two, c, s in (
-            ("lissom", mine["one_s"], mine["two_s"], figure, np.mean(mine["sticks"])),
-            ("numba", *times, theirs, sticks.mean()),
-        ):
-            print(
-                f"| {name}, {noise} rad | {one:.3f} s | {two:.3f} s | {two / mine['two_s']:.3g} |"
-                f" {c.mean():.6f} | {c.std(ddof=1):.2e} | {s:.1f} |"
-            )
 
 
 if __name__ == "__main__":

@@ -2,8 +2,7 @@
 //!
 //! `cargo bench -p lissom-core --bench rig`. The experiment is 60 s of the report's arm in its loop at
 //! 3 ms, 20 000 samples of a sine that sticks; the difference to the event finder goes to standard
-//! error. Preparations are in the times. Batches are 1000 such experiments, each with sensor noise
-//! of its own inside the loop and an estimate of friction.
+//! error. Preparations are in the times.
 #![expect(clippy::unwrap_used, reason = "the models are fixed and valid")]
 #![expect(clippy::print_stderr, reason = "accuracy beside speed")]
 
@@ -13,7 +12,7 @@ use std::time::Duration;
 use criterion::{Criterion, criterion_group, criterion_main};
 use lissom::arm::Arm;
 use lissom::beam::{LumpedBeam, Span};
-use lissom::rig::{Batch, HeldArm, HeldMotion, HeldStep, Hybrid, Motion, Pd, Quantiser, Sines};
+use lissom::rig::{HeldArm, HeldMotion, Hybrid, Motion, Quantiser};
 use lissom_testmodels::report_arm;
 
 const SAMPLE_TIME_S: f64 = 0.003;
@@ -30,14 +29,9 @@ fn closed_loop(
     let mut motor = Vec::with_capacity(SAMPLES);
     let (mut before, mut angle) = (0.0, 0.0);
     let (proportional, derivative) = (8.0, 0.2 / SAMPLE_TIME_S);
-    let sines = Sines::new(3.0 * SAMPLE_TIME_S);
-    let [mut sin, mut cos] = [[0.0; 64]; 2];
     for k in 0..SAMPLES {
-        if k % 64 == 0 {
-            sines.fill(k, &mut sin, &mut cos);
-        }
         let read = sensor.map_or(angle, |s| s.read(angle));
-        let error = 0.5 * sin[k % 64] - read;
+        let error = 0.5 * (3.0 * SAMPLE_TIME_S * k as f64).sin() - read;
         let current =
             (proportional * error + derivative * (error - before)).clamp(-LIMIT_A, LIMIT_A);
         before = error;
@@ -58,20 +52,11 @@ fn arm(masses: usize) -> Arm {
 }
 
 fn by_modes(arm: &Arm, sensor: Option<Quantiser>) -> Vec<f64> {
-    let held = HeldArm::new(arm, &[SAMPLE_TIME_S]).unwrap();
+    let held = HeldArm::new(arm, &[SAMPLE_TIME_S]).unwrap().unwrap();
     let mut motion = HeldMotion::at_rest(&held);
     closed_loop(arm, sensor, |torque| {
         motion.advance(torque, SAMPLE_TIME_S).unwrap();
         motion.motor_angle_rad()
-    })
-}
-
-fn by_matrices(arm: &Arm, sensor: Option<Quantiser>) -> Vec<f64> {
-    let step = HeldStep::new(arm, SAMPLE_TIME_S);
-    let mut hybrid = Hybrid::at_rest(arm);
-    closed_loop(arm, sensor, |torque| {
-        hybrid.advance_held(&step, torque);
-        hybrid.state()[0]
     })
 }
 
@@ -100,7 +85,6 @@ fn experiment(c: &mut Criterion) {
         eprintln!("60 s, {name}: apart by {apart:.1e} rad");
         group.sample_size(10).measurement_time(Duration::from_secs(2));
         group.bench_function("modes", |b| b.iter(|| black_box(by_modes(&arm, sensor))));
-        group.bench_function("matrices", |b| b.iter(|| black_box(by_matrices(&arm, sensor))));
         group.bench_function("events alone (baseline)", |b| {
             b.iter(|| black_box(by_events(&arm, sensor)));
         });
@@ -113,8 +97,7 @@ fn growth(c: &mut Criterion) {
     group.sample_size(10).measurement_time(Duration::from_secs(2));
     for masses in [1, 2, 5, 10, 20, 40, 80] {
         let arm = arm(masses);
-        let held = HeldArm::new(&arm, &[SAMPLE_TIME_S]).unwrap();
-        assert!(held.by_modes());
+        let held = HeldArm::new(&arm, &[SAMPLE_TIME_S]).unwrap().unwrap();
         let run = || {
             let mut motion = HeldMotion::at_rest(&held);
             closed_loop(&arm, None, |torque| {
@@ -129,37 +112,5 @@ fn growth(c: &mut Criterion) {
     group.finish();
 }
 
-fn batches(c: &mut Criterion) {
-    let arm = arm(1);
-    let mut group = c.benchmark_group("1000 experiments of 60 s");
-    group.sample_size(10).measurement_time(Duration::from_secs(5));
-    for noise_rad in [1e-4, 4.4e-4] {
-        let batch = Batch {
-            arm: &arm,
-            controller: Pd::new(8.0, 0.2).unwrap(),
-            limit_a: LIMIT_A,
-            sample_time_s: SAMPLE_TIME_S,
-            noise_rad,
-            omega_rad_s: 3.0,
-            amplitude_rad: 0.5,
-            settle_s: 2.0,
-            record_s: 58.0,
-        };
-        let runs = batch.run(0..1000).unwrap();
-        let mean = runs.iter().map(|r| r.coulomb_a).sum::<f64>() / 1000.0;
-        let spread =
-            (runs.iter().map(|r| (r.coulomb_a - mean).powi(2)).sum::<f64>() / 999.0).sqrt();
-        let sticks = runs.iter().map(|r| r.sticks).sum::<usize>() / 1000;
-        eprintln!("noise {noise_rad} rad: {mean:.5} A, spread {spread:.1e} A, {sticks} sticks");
-        for threads in [1, 2] {
-            let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
-            group.bench_function(format!("noise {noise_rad} rad, {threads} threads"), |b| {
-                b.iter(|| pool.install(|| black_box(batch.run(0..1000).unwrap())));
-            });
-        }
-    }
-    group.finish();
-}
-
-criterion_group!(benches, experiment, growth, batches);
+criterion_group!(benches, experiment, growth);
 criterion_main!(benches);

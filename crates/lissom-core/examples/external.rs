@@ -10,13 +10,11 @@ use std::{env, fmt::Write, fs, hint::black_box, path::Path, time::Instant};
 use lissom::arm::Arm;
 use lissom::beam::{LumpedBeam, Span};
 use lissom::drive::Coulomb;
-use lissom::rig::{ControlLaw, HeldArm, HeldMotion, Motion, Rig, Sines};
+use lissom::rig::{ControlLaw, HeldArm, HeldMotion, Motion, Rig};
 use lissom_testmodels::{report_arm, report_rig};
 use serde_json::json;
 
 const SAMPLES: usize = 20_000;
-/// Samples for which the reference is made at a time.
-const BLOCK: usize = 64;
 /// A run is shorter than the slices that a busy machine deals out: the median of many is undisturbed.
 const REPEATS: usize = 51;
 
@@ -32,7 +30,7 @@ struct Experiment {
 fn run(rig: &Rig, e: &Experiment) -> Vec<(f64, Vec<f64>)> {
     let t = rig.instruments.sample_time_s;
     let (p, d, limit) = gains(rig);
-    let held = HeldArm::new(&e.arm, &[t]).unwrap();
+    let held = HeldArm::new(&e.arm, &[t]).unwrap().unwrap();
     let mut motion = HeldMotion::at_rest(&held);
     let mut before = 0.0;
     let mut log = Vec::with_capacity(SAMPLES);
@@ -51,16 +49,12 @@ fn run(rig: &Rig, e: &Experiment) -> Vec<(f64, Vec<f64>)> {
 fn timed(rig: &Rig, e: &Experiment) -> f64 {
     let t = rig.instruments.sample_time_s;
     let (p, d, limit) = gains(rig);
-    let held = HeldArm::new(&e.arm, &[t]).unwrap();
+    let held = HeldArm::new(&e.arm, &[t]).unwrap().unwrap();
     let mut motion = HeldMotion::at_rest(&held);
-    let sines = Sines::new(e.omega_rad_s * t);
-    let [mut sin, mut cos] = [[0.0; BLOCK]; 2];
     let (mut before, rate) = (0.0, d / t);
     for k in 0..SAMPLES {
-        if k % BLOCK == 0 {
-            sines.fill(k, &mut sin, &mut cos);
-        }
-        let error = e.amplitude_rad * sin[k % BLOCK] - motion.motor_angle_rad();
+        let error =
+            e.amplitude_rad * (e.omega_rad_s * (k as f64 * t)).sin() - motion.motor_angle_rad();
         let current = (p * error + rate * (error - before)).clamp(-limit, limit);
         before = error;
         motion.advance(e.arm.motor.torque_constant_nm_per_a() * current, t).unwrap();

@@ -6,7 +6,7 @@
 use lissom::arm::Arm;
 use lissom::beam::{Damping, LumpedBeam, Payload, Span};
 use lissom::drive::{Coulomb, Motor};
-use lissom::rig::{HeldArm, HeldMotion, HeldStep, Hybrid, Mode, Motion};
+use lissom::rig::{HeldArm, HeldMotion, Hybrid, Mode, Motion};
 use proptest::prelude::*;
 use proptest::strategy::ValueTree;
 
@@ -158,24 +158,6 @@ proptest! {
         prop_assert_eq!(energy_balances(energies(&arm, torques, sample_s)), Ok(()));
     }
 
-    /// Whole samples and the events' polynomials give the same motion.
-    #[test]
-    fn whole_samples_change_nothing(arm in arm(), torques in torques(), sample_s in decade(1e-4, 1e-2)) {
-        let step = HeldStep::new(&arm, sample_s);
-        let (mut fast, mut slow) = (Hybrid::at_rest(&arm), Hybrid::at_rest(&arm));
-        let mut size = 0.0_f64;
-        for torque in torques {
-            fast.advance_held(&step, torque);
-            slow.advance(torque, sample_s);
-            for (a, b) in fast.state().iter().zip(slow.state()) {
-                size = size.max(b.abs());
-                prop_assert!((a - b).abs() <= 1e-10 * size, "{a} {b}");
-            }
-        }
-        prop_assert_eq!((fast.mode(), fast.sticks()), (slow.mode(), slow.sticks()));
-        prop_assert!((fast.stuck_s() - slow.stuck_s()).abs() <= 1e-10);
-    }
-
     /// Modes and the events' polynomials give the same motion, whatever the damping and the load,
     /// prepared durations or not.
     #[test]
@@ -187,6 +169,8 @@ proptest! {
     ) {
         let durations = if prepared { vec![sample_s] } else { vec![] };
         let held = HeldArm::new(&arm, &durations).unwrap();
+        prop_assume!(held.is_some());
+        let held = held.unwrap();
         let mut fast = HeldMotion::at_rest(&held);
         let mut slow = Hybrid::at_rest(&arm);
         let mut size = 0.0_f64;
@@ -255,7 +239,7 @@ fn most_arms_have_modes() {
     let mut runner = proptest::test_runner::TestRunner::deterministic();
     let by_modes = (0..200).filter(|_| {
         let arm = loaded_arm().new_tree(&mut runner).unwrap().current();
-        HeldArm::new(&arm, &[]).unwrap().by_modes()
+        HeldArm::new(&arm, &[]).unwrap().is_some()
     });
     let count = by_modes.count();
     assert!(count >= 190, "{count} of 200");

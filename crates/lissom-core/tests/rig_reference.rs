@@ -8,7 +8,7 @@
 
 use lissom::arm::Arm;
 use lissom::drive::Coulomb;
-use lissom::rig::{HeldArm, HeldMotion, HeldStep, Hybrid, Mode, Motion, Quantiser};
+use lissom::rig::{HeldArm, HeldMotion, Hybrid, Mode, Motion, Quantiser};
 use lissom_testmodels::report_arm;
 
 /// Angles agree to this \[rad\]: the reference's own agreement is 2e-14.
@@ -386,27 +386,22 @@ trait Way {
     fn sample(&mut self, torque: f64);
 }
 
-/// By the events' polynomials, by dense matrices where there is no event.
-struct Events<'a>(Hybrid<'a>, Option<HeldStep>);
-
-impl Way for Events<'_> {
+/// By the events' polynomials.
+impl Way for Hybrid<'_> {
     fn state(&self) -> &[f64] {
-        self.0.state()
+        Hybrid::state(self)
     }
     fn mode(&self) -> Mode {
-        self.0.mode()
+        Hybrid::mode(self)
     }
     fn sticks(&self) -> usize {
-        self.0.sticks()
+        Hybrid::sticks(self)
     }
     fn stuck_s(&self) -> f64 {
-        self.0.stuck_s()
+        Hybrid::stuck_s(self)
     }
     fn sample(&mut self, torque: f64) {
-        match &self.1 {
-            Some(step) => self.0.advance_held(step, torque),
-            None => self.0.advance(torque, SAMPLE_TIME_S),
-        }
+        Hybrid::advance(self, torque, SAMPLE_TIME_S);
     }
 }
 
@@ -434,14 +429,11 @@ fn run(case: &Case) {
     let base = report_arm();
     let coulomb = Coulomb::by_direction(case.coulomb.0, case.coulomb.1).unwrap();
     let arm = Arm::new(base.beam().clone(), base.motor, coulomb).unwrap();
-    let hybrid = || Hybrid::with_state(&arm, case.initial.to_vec());
-    run_by(case, &arm, Events(hybrid(), None));
-    run_by(case, &arm, Events(hybrid(), Some(HeldStep::new(&arm, SAMPLE_TIME_S))));
-    let held = HeldArm::new(&arm, &[SAMPLE_TIME_S]).unwrap();
-    assert!(held.by_modes());
+    run_by(case, &arm, Hybrid::with_state(&arm, case.initial.to_vec()));
+    let held = HeldArm::new(&arm, &[SAMPLE_TIME_S]).unwrap().unwrap();
     run_by(case, &arm, HeldMotion::with_state(&held, &case.initial).unwrap());
     // Of a duration that was not prepared.
-    let held = HeldArm::new(&arm, &[]).unwrap();
+    let held = HeldArm::new(&arm, &[]).unwrap().unwrap();
     run_by(case, &arm, HeldMotion::with_state(&held, &case.initial).unwrap());
 }
 

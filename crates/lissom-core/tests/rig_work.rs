@@ -44,8 +44,7 @@ fn closed_loop(
 
 fn work(masses: usize, sensor: Option<Quantiser>) -> (Work, usize) {
     let arm = arm(masses);
-    let held = HeldArm::new(&arm, &[SAMPLE_TIME_S]).unwrap();
-    assert!(held.by_modes());
+    let held = HeldArm::new(&arm, &[SAMPLE_TIME_S]).unwrap().unwrap();
     let mut motion = HeldMotion::at_rest(&held);
     let counted = allocation_counter::measure(|| {
         closed_loop(&arm, sensor, SAMPLES, |torque| {
@@ -82,7 +81,7 @@ fn sixty_seconds() {
 #[test]
 fn ten_masses_move_as_their_events_say() {
     let arm = arm(10);
-    let held = HeldArm::new(&arm, &[SAMPLE_TIME_S]).unwrap();
+    let held = HeldArm::new(&arm, &[SAMPLE_TIME_S]).unwrap().unwrap();
     let (mut fast, mut slow) = (HeldMotion::at_rest(&held), Hybrid::at_rest(&arm));
     closed_loop(&arm, None, 1500, |torque| {
         fast.advance(torque, SAMPLE_TIME_S).unwrap();
@@ -95,16 +94,20 @@ fn ten_masses_move_as_their_events_say() {
     assert_eq!((fast.mode(), fast.sticks()), (slow.mode(), slow.sticks()));
 }
 
-/// Damping that is nearly critical: the modes cannot be told apart, or only just.
+/// Damping that is nearly critical: the modes cannot be told apart, so that there is no fast engine, or only just.
 #[test]
 fn near_critical_damping_changes_nothing() {
+    let mut apart = 0;
     for off in [0.0, 1e-15, 1e-12, 1e-9, 1e-6, 1e-3, 0.1] {
         let report = report_arm();
         let span = Span { damping_n_s_per_m: 0.0, ..report.beam().spans()[0] };
         let damping = lissom::beam::Damping::Modal { ratios: vec![1.0 + off] };
         let beam = LumpedBeam::new(&[span]).unwrap().with_damping(damping).unwrap();
         let arm = Arm::new(beam, report.motor, report.coulomb).unwrap();
-        let held = HeldArm::new(&arm, &[SAMPLE_TIME_S]).unwrap();
+        let Some(held) = HeldArm::new(&arm, &[SAMPLE_TIME_S]).unwrap() else {
+            apart += 1;
+            continue;
+        };
         let (mut fast, mut slow) = (HeldMotion::at_rest(&held), Hybrid::at_rest(&arm));
         closed_loop(&arm, None, 1500, |torque| {
             fast.advance(torque, SAMPLE_TIME_S).unwrap();
@@ -116,12 +119,13 @@ fn near_critical_damping_changes_nothing() {
         });
         assert_eq!((fast.mode(), fast.sticks()), (slow.mode(), slow.sticks()));
     }
+    assert!((1..7).contains(&apart), "{apart}");
 }
 
 #[test]
 fn what_is_no_number_is_refused() {
     let arm = arm(2);
-    let held = HeldArm::new(&arm, &[SAMPLE_TIME_S]).unwrap();
+    let held = HeldArm::new(&arm, &[SAMPLE_TIME_S]).unwrap().unwrap();
     let mut motion = HeldMotion::at_rest(&held);
     assert!(matches!(motion.advance(f64::NAN, 0.003), Err(RigError::NotFinite { .. })));
     assert!(matches!(motion.advance(0.0, -0.003), Err(RigError::NotPositive { .. })));

@@ -5,7 +5,6 @@
 //! [`HeldMotion`] for Coulomb friction and torques that are constant over each sample, [`Hybrid`] for all other dry
 //! friction and for a world at the tip, [`LuGreMotion`] for bristles.
 
-mod batch;
 mod controller;
 mod error;
 mod experiment;
@@ -23,14 +22,12 @@ mod scene;
 mod settled;
 mod settling;
 mod signal;
-mod sine;
 mod tip_world;
 mod virtual_campaign;
 mod virtual_rig;
 mod wander;
 
 pub use crate::friction::Mode;
-pub use batch::{Batch, NoisyRun};
 pub use controller::{ControlLaw, Controller, IntegerPd, Pd, Pid, Proportional, Sensed, Word};
 pub use error::RigError;
 pub use experiment::{
@@ -38,7 +35,7 @@ pub use experiment::{
     TableHold,
 };
 pub use finding::{RigFinding, SensorPlace};
-pub use held::{HeldArm, HeldMotion, HeldStep, Work};
+pub use held::{HeldArm, HeldMotion, Work};
 pub use hybrid::Hybrid;
 pub use instrument::{
     Amplifier, CurrentReading, CurrentSensor, Delay, Instruments, LateStamps, Noise, Quantiser,
@@ -51,7 +48,6 @@ pub use rig_builder::RigBuilder;
 pub use scene::{JointFriction, Scene};
 pub use settled::Settled;
 pub use signal::{Harmonic, Signal};
-pub use sine::Sines;
 pub use tip_world::{TipWorld, Wall};
 pub use virtual_campaign::{PlannedExperiment, VirtualCampaign};
 pub use virtual_rig::Rig;

@@ -141,7 +141,7 @@ impl Scene {
             return Ok(None);
         }
         let durations_s: Vec<f64> = durations_s.iter().copied().filter(|d| *d > 0.0).collect();
-        HeldArm::new(arm, &durations_s).map(Some)
+        HeldArm::new(arm, &durations_s)
     }
 
     /// What moves `arm` from `state` on; `held` is [`Self::held`] of it.

@@ -154,7 +154,7 @@ fn grazing_and_chattering_come_to_an_end() {
         let coulomb = Coulomb::symmetric(holds * (1.0 + off)).unwrap();
         let beam = LumpedBeam::new(&[span(0.2, 0.005, 0.05, 0.0)]).unwrap();
         let arm = Arm::new(beam, base.motor, coulomb).unwrap();
-        let held = HeldArm::new(&arm, &[3e-3]).unwrap();
+        let held = HeldArm::new(&arm, &[3e-3]).unwrap().unwrap();
         for torque in [0.0, 0.5 * holds] {
             let start = vec![0.0, 0.0, swing_rad, 0.0];
             let mut by_events = Hybrid::with_state(&arm, start.clone());

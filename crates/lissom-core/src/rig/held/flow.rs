@@ -1,15 +1,9 @@
 //! What blocks of two states do in a given time under a held torque, and how far they can stray.
 
-#![expect(
-    clippy::inline_always,
-    reason = "a loop over samples, compiled for vectors chosen at run time"
-)]
-
 use nalgebra::{DMatrix, DVector};
 use num_complex::Complex64;
 
 use super::blocks::{Blocks, Rates};
-use super::lane::Lane;
 
 /// Below this size of z the functions of [`phi`] are summed as series, with [`TERMS`]…
 const SERIES: f64 = 1.0;
@@ -59,13 +53,13 @@ pub(in crate::rig) struct ArmPart {
 
 /// What [`step`] finds out beside the states.
 #[derive(Debug, Clone, Copy)]
-pub(in crate::rig) struct Moved<F> {
+pub(in crate::rig) struct Moved {
     /// What is watched, at the end.
-    pub(in crate::rig) watched: F,
+    pub(in crate::rig) watched: f64,
     /// Its integral, without the torque's part.
-    pub(in crate::rig) sum: F,
+    pub(in crate::rig) sum: f64,
     /// The most that it departs from the straight line through both ends.
-    pub(in crate::rig) stray: F,
+    pub(in crate::rig) stray: f64,
 }
 
 impl Flow {
@@ -207,24 +201,23 @@ const INVERSE_FACTORIALS: [f64; TERMS + 3] = {
 };
 
 /// Moves the states on by the parts' time under `torque`.
-#[inline(always)]
-pub(in crate::rig) fn step<F: Lane>(
+#[inline]
+pub(in crate::rig) fn step(
     parts: &[ArmPart],
-    y: &[[F; 2]],
-    torque: F,
-    next: &mut [[F; 2]],
-) -> Moved<F> {
-    let zero = F::splat(0.0);
-    let mut moved = Moved { watched: zero, sum: zero, stray: zero };
+    y: &[[f64; 2]],
+    torque: f64,
+    next: &mut [[f64; 2]],
+) -> Moved {
+    let mut moved = Moved { watched: 0.0, sum: 0.0, stray: 0.0 };
     for ((p, y), next) in parts.iter().zip(y).zip(next) {
         let [a, b] = *y;
         let rate =
             |row: usize| a * p.rate[2 * row] + b * p.rate[2 * row + 1] + torque * p.gain[row];
-        moved.stray = moved.stray + (rate(0).abs() * p.stray[0] + rate(1).abs() * p.stray[1]);
-        moved.sum = moved.sum + (a * p.sum[0] + b * p.sum[1]);
+        moved.stray += rate(0).abs() * p.stray[0] + rate(1).abs() * p.stray[1];
+        moved.sum += a * p.sum[0] + b * p.sum[1];
         let turned = |row: usize| a * p.turn[2 * row] + b * p.turn[2 * row + 1];
         *next = [turned(0) + torque * p.push[0], turned(1) + torque * p.push[1]];
-        moved.watched = moved.watched + (next[0] * p.read[0] + next[1] * p.read[1]);
+        moved.watched += next[0] * p.read[0] + next[1] * p.read[1];
     }
     moved
 }

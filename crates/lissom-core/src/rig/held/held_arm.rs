@@ -1,31 +1,18 @@
 //! An arm made ready for torques that are held over samples.
 
-use super::HeldStep;
 use super::flow::{ArmPart, Flow, ModalBlock, sum_push};
 use super::modal::Modal;
 use crate::arm::Arm;
 use crate::rig::RigError;
 
-/// Dense matrices cut a sample into parts, some two per unit of (rate bound × duration). With more
-/// of it than this they save nothing over the event engine, and take long to make.
-const MOST_TURN: f64 = 32.0;
-
 /// An arm prepared for torques that are constant over each sample: its modes while the motor slips and while it sticks,
 /// and their motion over given durations.
 ///
-/// One prepared arm serves any number of [`HeldMotion`](super::HeldMotion)s. If the modes are too close to each other
-/// (for example with a nearly critical damper), or if there are more than 150 coordinates, dense matrices are used
-/// instead, or only the event engine if the arm is stiff.
+/// One prepared arm serves any number of [`HeldMotion`](super::HeldMotion)s.
 #[derive(Debug, Clone)]
 pub struct HeldArm<'a> {
     pub(in crate::rig) arm: &'a Arm,
-    pub(in crate::rig) way: Way,
-}
-
-#[derive(Debug, Clone)]
-pub(in crate::rig) enum Way {
-    Modes(Box<Modes>),
-    Matrices(Vec<HeldStep>),
+    pub(in crate::rig) modes: Modes,
 }
 
 /// The arm's modes in both phases.
@@ -79,34 +66,23 @@ fn fill(parts: &mut [ArmPart], blocks: &[ModalBlock], time_s: f64) {
 impl<'a> HeldArm<'a> {
     /// Prepares an arm for torques that are constant over any of `durations_s` \[s\].
     ///
-    /// Other durations are possible later, but slower.
+    /// Other durations are possible later, but slower. `None` if the modes are too close to each other (for example with a
+    /// nearly critical damper), or if there are more than 150 coordinates: [`Hybrid`](crate::rig::Hybrid) moves such an arm.
     ///
     /// # Errors
     /// [`RigError::NotPositive`] for a duration that is not positive and finite.
-    pub fn new(arm: &'a Arm, durations_s: &[f64]) -> Result<Self, RigError> {
+    pub fn new(arm: &'a Arm, durations_s: &[f64]) -> Result<Option<Self>, RigError> {
         for &found in durations_s {
             if !(found > 0.0 && found.is_finite()) {
                 return Err(RigError::NotPositive { quantity: "held duration [s]", found });
             }
         }
-        let way = Modes::new(arm, durations_s).map_or_else(
-            || {
-                let soft = durations_s.iter().filter(|t| arm.rate_bound() * **t <= MOST_TURN);
-                Way::Matrices(soft.map(|t| HeldStep::new(arm, *t)).collect())
-            },
-            |modes| Way::Modes(Box::new(modes)),
-        );
-        Ok(Self { arm, way })
+        Ok(Modes::new(arm, durations_s).map(|modes| Self { arm, modes }))
     }
 
     /// The arm.
     pub fn arm(&self) -> &'a Arm {
         self.arm
-    }
-
-    /// Whether the motion is computed with modes. The cost of a sample is then in proportion to their number.
-    pub fn by_modes(&self) -> bool {
-        matches!(self.way, Way::Modes(_))
     }
 }
 

@@ -4,7 +4,7 @@ use std::cell::{OnceCell, RefCell};
 
 use super::crossing::Wave;
 use super::flow::step;
-use super::held_arm::{Duration, HeldArm, Modes, Way};
+use super::held_arm::{Duration, HeldArm, Modes};
 use crate::drive::Coulomb;
 use crate::rig::hybrid::events::ROUNDING;
 use crate::rig::{Hybrid, Mode, Motion, RigError};
@@ -22,7 +22,7 @@ use crate::rig::{Hybrid, Mode, Motion, RigError};
 /// # let span = Span { length_m: 0.2, flexural_rigidity_n_m2: 0.004, mass_kg: 0.05, damping_n_s_per_m: 0.0 };
 /// # let beam = LumpedBeam::new(&[span]).unwrap();
 /// # let arm = Arm::new(beam, Motor::new(6e-4, 1e-3, 0.25).unwrap(), Coulomb::symmetric(0.03).unwrap()).unwrap();
-/// let held = HeldArm::new(&arm, &[0.003])?;
+/// let held = HeldArm::new(&arm, &[0.003])?.unwrap();
 /// let mut motion = HeldMotion::at_rest(&held);
 /// motion.advance(0.029, 0.003)?; // N·m and s: below the friction of 0.03 N·m
 /// assert_eq!(motion.state()[0], 0.0);
@@ -91,10 +91,7 @@ impl<'a> HeldMotion<'a> {
     fn start(held: &'a HeldArm<'a>, state: Vec<f64>) -> Self {
         let len = state.len();
         let events = Hybrid::with_state(held.arm, state);
-        let blocks = match &held.way {
-            Way::Modes(modes) => modes.slip.blocks.len(),
-            Way::Matrices(_) => 0,
-        };
+        let blocks = held.modes.slip.blocks.len();
         let mut motion = Self {
             held,
             mode: events.mode,
@@ -104,10 +101,7 @@ impl<'a> HeldMotion<'a> {
             next: vec![[0.0; 2]; blocks],
             z: vec![0.0; len - 1],
             wave: Wave::with_room(blocks),
-            other: match &held.way {
-                Way::Modes(modes) => Some(modes.other_duration()),
-                Way::Matrices(_) => None,
-            },
+            other: Some(held.modes.other_duration()),
             events,
             state: OnceCell::new(),
             room: RefCell::new(vec![0.0; 2 * len - 1]),
@@ -115,20 +109,18 @@ impl<'a> HeldMotion<'a> {
             stuck_s: 0.0,
             work: Work::default(),
         };
-        if let Way::Modes(modes) = &held.way {
-            motion.take_over(modes);
-        }
+        motion.take_over(&held.modes);
         motion
     }
 
     /// Whether the joint sticks, or in which direction it slips.
     pub fn mode(&self) -> Mode {
-        if self.held.by_modes() { self.mode } else { self.events.mode }
+        self.mode
     }
 
     /// Number of times that the joint began to stick.
     pub fn sticks(&self) -> usize {
-        if self.held.by_modes() { self.sticks } else { self.events.sticks() }
+        self.sticks
     }
 
     /// Operations that the motion has taken so far.
@@ -138,26 +130,18 @@ impl<'a> HeldMotion<'a> {
 
     /// θ_m \[rad\]: equal to `state()[0]`, without computing the other states.
     pub fn motor_angle_rad(&self) -> f64 {
-        if self.held.by_modes() { self.angle } else { self.events.state[0] }
+        self.angle
     }
 
     /// θ̇_m \[rad/s\]: equal to `state()[1]`, without computing the other states.
     pub fn motor_velocity_rad_s(&self) -> f64 {
-        match (self.held.by_modes(), self.mode) {
-            (false, _) => self.events.state[1],
-            (true, Mode::Stick) => 0.0,
-            (true, _) => self.watched,
-        }
+        if self.mode == Mode::Stick { 0.0 } else { self.watched }
     }
 
     /// θ_i \[rad\] of coordinate `i`, counted from 0 at the base: equal to `state()[2 + i]`, at a cost that grows with
     /// the number of modes instead of its square. `None` if there is no such coordinate.
     pub fn angle_rad(&self, i: usize) -> Option<f64> {
-        let Way::Modes(modes) = &self.held.way else {
-            let k = self.held.arm.dynamics().len();
-            return (i < k).then(|| self.events.state[2 + i]);
-        };
-        let row = modes.deflections[usize::from(self.mode == Mode::Stick)].get(i)?;
+        let row = self.held.modes.deflections[usize::from(self.mode == Mode::Stick)].get(i)?;
         Some(self.angle + dot(row, &self.y))
     }
 
@@ -227,58 +211,19 @@ impl<'a> HeldMotion<'a> {
         if let Some(state) = self.state.take() {
             self.room.replace(state);
         }
-        let held = self.held;
-        match &held.way {
-            Way::Modes(modes) => {
-                if frictionless(held.arm.coulomb) && self.mode == Mode::Stick {
-                    self.change(modes, Mode::Forward, 0.0);
-                }
-                let passed = if let Some(duration) = modes.duration(duration_s) {
-                    self.whole(duration, torque)
-                } else {
-                    self.whole_of_other(modes, torque, duration_s)
-                };
-                if passed {
-                    self.work.whole += 1;
-                } else {
-                    self.search(modes, torque, duration_s);
-                }
-            }
-            Way::Matrices(steps) => {
-                match steps.iter().find(|s| s.sample_time_s().to_bits() == duration_s.to_bits()) {
-                    Some(step) => self.events.advance_held(step, torque),
-                    None => self.events.advance(torque, duration_s),
-                }
-            }
-        }
-    }
-
-    /// Number of blocks while the motor slips; none where the arm does not move by modes.
-    pub(in crate::rig) fn blocks(&self) -> usize {
-        self.y.len()
-    }
-
-    /// A slipping motor is where it was moved to.
-    pub(in crate::rig) fn put(&mut self, angle: f64, velocity: f64, sign: f64) {
-        self.angle = angle;
-        self.watched = velocity;
-        self.mode = if sign > 0.0 { Mode::Forward } else { Mode::Backward };
-    }
-
-    /// One sample, not tried at a stroke where that is known to fail.
-    pub(in crate::rig) fn sample(
-        &mut self,
-        modes: &Modes,
-        duration: &Duration,
-        torque: f64,
-        whole: bool,
-    ) {
-        let free = frictionless(self.held.arm.coulomb) && self.mode == Mode::Stick;
-        if free {
+        let modes = &self.held.modes;
+        if frictionless(self.held.arm.coulomb) && self.mode == Mode::Stick {
             self.change(modes, Mode::Forward, 0.0);
         }
-        if !((whole || free) && self.whole(duration, torque)) {
-            self.search(modes, torque, duration.time_s);
+        let passed = if let Some(duration) = modes.duration(duration_s) {
+            self.whole(duration, torque)
+        } else {
+            self.whole_of_other(modes, torque, duration_s)
+        };
+        if passed {
+            self.work.whole += 1;
+        } else {
+            self.search(modes, torque, duration_s);
         }
     }
 
@@ -301,7 +246,7 @@ impl Motion for HeldMotion<'_> {
     /// [`motor_angle_rad`](HeldMotion::motor_angle_rad) and [`angle_rad`](HeldMotion::angle_rad)
     /// give single angles sooner.
     fn state(&self) -> &[f64] {
-        let Way::Modes(modes) = &self.held.way else { return &self.events.state };
+        let modes = &self.held.modes;
         let len = self.held.arm.state_len();
         let made = self.state.get_or_init(|| {
             let mut room = self.room.take();
@@ -334,7 +279,7 @@ impl Motion for HeldMotion<'_> {
     }
 
     fn stuck_s(&self) -> f64 {
-        if self.held.by_modes() { self.stuck_s } else { self.events.stuck_s() }
+        self.stuck_s
     }
 
     fn tolerance(&self) -> Option<f64> {

@@ -2,14 +2,11 @@
 
 mod blocks;
 mod crossing;
-pub(in crate::rig) mod flow;
-pub(in crate::rig) mod held_arm;
+mod flow;
+mod held_arm;
 mod held_motion;
-pub(in crate::rig) mod lane;
-mod matrices;
 mod modal;
 mod search;
 
 pub use held_arm::HeldArm;
 pub use held_motion::{HeldMotion, Work};
-pub use matrices::HeldStep;

@@ -347,16 +347,6 @@ impl<'a> Hybrid<'a> {
     fn bends(&self) -> bool {
         !self.position_torque.is_empty() || !self.friction.is_constant()
     }
-
-    /// Moves on with the motor held, whatever the torques.
-    pub(in crate::rig) fn advance_stuck(&mut self, duration_s: f64) {
-        self.mode = Mode::Stick;
-        let parts = (duration_s / self.step_most_s).ceil().max(1.0);
-        for _ in 0..parts as usize {
-            let (order, _) = self.fill(Torque::Held(0.0), duration_s / parts);
-            self.evaluate(order, duration_s / parts);
-        }
-    }
 }
 
 impl Motion for Hybrid<'_> {
