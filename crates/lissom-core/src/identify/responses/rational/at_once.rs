@@ -1,23 +1,16 @@
 //! Modes from the responses of tips and motor together.
 
-use levenberg_marquardt::{LeastSquaresProblem, LevenbergMarquardt};
-use nalgebra::storage::Owned;
-use nalgebra::{DMatrix, DVector, Dyn};
+use nalgebra::{DMatrix, DVector};
 use num_complex::Complex64;
 
-use crate::identify::estimate::{Estimate, ModeEstimate};
-use crate::identify::responses::correct::Response;
-use crate::identify::responses::rational::beam::{BeamFit, Data, TipData, functions};
-use crate::identify::responses::rational::fit_covariance::joined;
-use crate::identify::responses::rational::motor::{
-    MotorData, MotorFit, Solution, finish, least_squares, solve,
-};
-use crate::identify::responses::rational::{Pole, information, part_error};
-use crate::identify::responses::thresholds::CRITERION_CALLED_FOR;
-use crate::information::{Inverse, inverted};
-
-/// Share of an unknown's size over which slopes are taken to either side.
-const STEP: f64 = 1e-6;
+use crate::identify::estimate::Estimate;
+use crate::identify::responses::rational::beam::{BeamFit, TipData, output};
+use crate::identify::responses::rational::motor::{MotorData, MotorFit, solve};
+use crate::identify::responses::rational::pole_damping::Damping;
+use crate::identify::responses::rational::refine::{PolePoint, refined, refined_with_delays};
+use crate::identify::responses::rational::weighted::{Basis, Output, Weighted};
+use crate::identify::responses::rational::{information, part_error};
+use crate::identify::responses::thresholds::{CRITERION_CALLED_FOR, RESPONSE_FLOOR};
 
 /// Beam and motor with the same poles.
 pub(crate) struct AtOnce {
@@ -41,255 +34,146 @@ pub(crate) fn fit_at_once(
     start: &BeamFit,
     motor: &MotorData,
 ) -> Option<AtOnce> {
-    let data = Data::new(omega_rad_s, tips)?;
-    let poles = start.poles.len();
-    let alone = solve(motor, &start.modal_poles())?;
-    let mut problem = JointProblem {
-        tips: &data,
-        motor,
-        modes: &start.mode_poles,
-        tips_weight: 1.0 / part_error(start.weighted_rms),
-        motor_weight: 1.0 / part_error(alone.weighted_rms(0)),
-        fastest_rad_s: motor.omega_rad_s.iter().copied().fold(0.0, f64::max),
-        x: DVector::from_iterator(
-            2 * poles,
-            start.poles.iter().flat_map(|p| [p.omega_rad_s.ln(), p.damping_ratio]),
-        ),
+    let alone = solve(motor, &start.modal_poles())?.weighted_rms(0);
+    let of_tips = part_error(start.weighted_rms);
+    let data =
+        joined_data(omega_rad_s, tips, motor, &start.mode_poles, [of_tips, part_error(alone)])?;
+    let prompt = Joint::new(data.clone(), start, false)?;
+    let late = Joint::new(data, start, true);
+    let called_for =
+        |late: &Joint| late.information() + CRITERION_CALLED_FOR < prompt.information();
+    let found = match late.filter(called_for) {
+        Some(late) => {
+            // The motor's errors by what it leaves with the delay.
+            let stretch = [of_tips, part_error(part_error(alone) * late.motor_rms())];
+            let data = joined_data(omega_rad_s, tips, motor, &start.mode_poles, stretch)?;
+            Joint { stretch: stretch[1], ..Joint::new(data, start, true)? }
+        }
+        None => Joint { stretch: part_error(alone), ..prompt },
     };
-    let minimal = |problem| LevenbergMarquardt::new().with_patience(50).minimize(problem).0;
-    problem = minimal(problem);
-    let delayed = JointProblem { x: problem.x.push(0.0), ..problem.clone() };
-    let delayed = minimal(delayed);
-    if delayed.information()? + CRITERION_CALLED_FOR < problem.information()? {
-        let left = delayed.linear()?.motor.weighted_rms(0);
-        problem = minimal(JointProblem { motor_weight: 1.0 / part_error(left), ..delayed });
-    }
-    problem.finished(tips, start)
+    found.fits(tips, start, motor)
 }
 
-/// Unknowns: ln ω_k, ζ_k of each pole, then a delay in radians at the motor's highest frequency, if any. What
-/// is linear is solved for.
-#[derive(Clone)]
-struct JointProblem<'a> {
-    tips: &'a Data,
-    motor: &'a MotorData,
-    /// Poles through which the motor is coupled.
-    modes: &'a [usize],
-    tips_weight: f64,
-    motor_weight: f64,
-    fastest_rad_s: f64,
-    x: DVector<f64>,
+/// Responses of the tips, then the motor's torque per angle, on all their frequencies; what is not measured at one has no
+/// weight.
+fn joined_data(
+    omega_rad_s: &[f64],
+    tips: &[TipData],
+    motor: &MotorData,
+    modes: &[usize],
+    [of_tips, of_motor]: [f64; 2],
+) -> Option<Weighted> {
+    let mut omega: Vec<f64> = omega_rad_s.iter().chain(&motor.omega_rad_s).copied().collect();
+    omega.sort_by(f64::total_cmp);
+    omega.dedup();
+    let spread = |at: &[f64], output: Output| {
+        let (mut values, mut weights) = (Vec::new(), Vec::new());
+        for w in &omega {
+            let measured = at.iter().position(|at| at == w);
+            values.push(measured.map_or(Complex64::ZERO, |i| output.weighted[i]));
+            weights.push(measured.map_or(0.0, |i| output.weights[i]));
+        }
+        Output { weighted: values, weights, ..output }
+    };
+    let (mut values, mut weights) = (Vec::new(), Vec::new());
+    for r in &motor.response {
+        let torque = motor.torque_per_command / r.value;
+        let relative = (r.std / r.value.norm()).hypot(RESPONSE_FLOOR);
+        values.push(torque);
+        weights.push(1.0 / (torque.norm() * relative * of_motor));
+    }
+    let torque = Output::new(Basis::Torque(modes.to_vec()), &values, weights);
+    let of_tip = |tip: &TipData| Some(spread(omega_rad_s, output(omega_rad_s, tip, of_tips)?));
+    let mut outputs = tips.iter().map(of_tip).collect::<Option<Vec<_>>>()?;
+    outputs.push(spread(&motor.omega_rad_s, torque));
+    Some(Weighted { omega, outputs })
 }
 
-/// The linear unknowns at a choice of the others, and what all leave.
-struct Linear {
-    residues: Vec<DVector<f64>>,
-    motor: Solution,
-    left: DVector<f64>,
+/// Tips and motor, fitted together.
+struct Joint {
+    data: Weighted,
+    point: PolePoint,
+    /// By which the motor's standard errors are stretched.
+    stretch: f64,
 }
 
-impl JointProblem<'_> {
-    fn poles(&self) -> Vec<Pole> {
-        let pole =
-            |k: usize| Pole { omega_rad_s: self.x[2 * k].exp(), damping_ratio: self.x[2 * k + 1] };
-        (0..self.x.len() / 2).map(pole).collect()
-    }
-
-    fn modal_poles(&self) -> Vec<Pole> {
-        let poles = self.poles();
-        self.modes.iter().map(|&k| poles[k]).collect()
-    }
-
-    fn has_delay(&self) -> bool {
-        !self.x.len().is_multiple_of(2)
-    }
-
-    /// The motor's response as it would be without the delay.
-    fn undelayed(&self) -> MotorData {
-        if !self.has_delay() {
-            return self.motor.clone();
-        }
-        let delay_s = self.x[self.x.len() - 1] / self.fastest_rad_s;
-        let each = self.motor.omega_rad_s.iter().zip(&self.motor.response);
-        let early = |(w, r): (&f64, &Response)| Response {
-            value: r.value * Complex64::cis(w * delay_s),
-            ..*r
+impl Joint {
+    /// From the poles of `start`; with a delay of the motor where it may be late.
+    fn new(mut data: Weighted, start: &BeamFit, late: bool) -> Option<Self> {
+        let poles = start.poles.clone();
+        let point = if late {
+            data.outputs.last_mut()?.may_be_late();
+            refined_with_delays(&mut data, poles, Damping::Small)?
+        } else {
+            refined(&data, poles, Damping::Small)?
         };
-        MotorData { response: each.map(early).collect(), ..self.motor.clone() }
+        Some(Self { data, point, stretch: 1.0 })
     }
 
-    fn linear(&self) -> Option<Linear> {
-        let poles = self.poles();
-        let motor = solve(&self.undelayed(), &self.modal_poles())?;
-        let mut left: Vec<f64> = motor.left.iter().map(|r| r * self.motor_weight).collect();
-        let mut residues = Vec::new();
-        for tip in 0..self.tips.len() {
-            let (found, rest) = self.tips.residues_of(tip, &poles)?;
-            left.extend(rest.iter().map(|r| r * self.tips_weight));
-            residues.push(found);
-        }
-        let left = DVector::from_vec(left);
-        left.iter().all(|v| v.is_finite()).then_some(Linear { residues, motor, left })
+    /// How many real numbers are there beyond those that are fitted.
+    fn free(&self) -> f64 {
+        let of_outputs = self.point.own_estimates.iter().map(DVector::len).sum::<usize>();
+        let unknowns = 2 * self.point.poles.len() + of_outputs;
+        self.data.readings().saturating_sub(unknowns).max(1) as f64
     }
 
-    /// How many numbers are fitted.
-    fn unknowns(&self) -> usize {
-        self.x.len() + 2 + self.modes.len() + self.tips.len() * (self.x.len() / 2)
+    fn information(&self) -> f64 {
+        let readings = self.data.readings();
+        information(readings, readings - self.free() as usize, self.point.cost)
     }
 
-    fn information(&self) -> Option<f64> {
-        let left = self.linear()?.left;
-        Some(information(left.len(), self.unknowns(), left.norm_squared()))
-    }
-
-    /// Slopes of what `of` makes of the linear unknowns, by the others.
-    fn slopes(&self, of: impl Fn(&Linear) -> DVector<f64>) -> Option<DMatrix<f64>> {
-        let beside = |k: usize, step: f64| {
-            let mut moved = self.clone();
-            moved.x[k] += step;
-            Some(of(&moved.linear()?))
-        };
-        let column = |k| Some((beside(k, STEP)? - beside(k, -STEP)?) / (2.0 * STEP));
-        let columns = (0..self.x.len()).map(column).collect::<Option<Vec<_>>>()?;
-        let slopes = DMatrix::from_columns(&columns);
-        slopes.iter().all(|v| v.is_finite()).then_some(slopes)
-    }
-
-    /// Slopes of ω_k and ζ_k of each pole and of the delay \[s\] by the unknowns: one a row.
-    fn units(&self) -> DMatrix<f64> {
-        let n = self.x.len();
-        let poles = self.poles();
-        let unit = |k: usize| match poles.get(k / 2) {
-            Some(pole) if k.is_multiple_of(2) => pole.omega_rad_s,
-            Some(_) => 1.0,
-            None => 1.0 / self.fastest_rad_s,
-        };
-        DMatrix::from_diagonal(&DVector::from_iterator(n, (0..n).map(unit)))
-    }
-
-    /// Slopes of J, V and c_k by the modes' ω_k and ζ_k and by the delay, and the covariance of these.
-    fn of_motor(&self, covariance: &DMatrix<f64>) -> Option<(DMatrix<f64>, DMatrix<f64>)> {
-        let units = self.units();
-        let slopes = self.slopes(|l| l.motor.value.clone())?;
-        let delay = 2 * (self.x.len() / 2);
-        let places: Vec<usize> =
-            self.modes.iter().flat_map(|&k| [2 * k, 2 * k + 1]).chain([delay]).collect();
-        let n = places.len();
-        // Without a delay its row and column are zero.
-        let others = (&units * covariance * &units).resize(delay + 1, delay + 1, 0.0);
-        let others = DMatrix::from_fn(n, n, |i, k| others[(places[i], places[k])]);
-        let by_unit =
-            DMatrix::from_fn(slopes.nrows(), slopes.ncols(), |i, k| slopes[(i, k)] / units[(k, k)]);
-        let by_unit = by_unit.resize_horizontally(delay + 1, 0.0);
-        Some((DMatrix::from_fn(slopes.nrows(), n, |i, k| by_unit[(i, places[k])]), others))
-    }
-
-    /// Covariance of ω_k and ζ_k of each pole, then of the residues tip by tip.
-    fn beam_covariance(
-        &self,
-        poles: &[Pole],
-        spread: f64,
-        covariance: &DMatrix<f64>,
-    ) -> Option<DMatrix<f64>> {
-        let (count, tips) = (poles.len(), self.tips.len());
-        let mut known = DMatrix::zeros(count * tips, count * tips);
-        for tip in 0..tips {
-            let (rows, b) = self.tips.residue_rows(tip, poles);
-            let (_, own) = least_squares(&rows, &b)?;
-            let scale = (spread / self.tips_weight).powi(2);
-            let first = tip * count;
-            known.view_mut((first, first), (count, count)).copy_from(&(own * scale));
-        }
-        let of_residues = |l: &Linear| {
-            let all = l.residues.iter().flat_map(|r| r.iter().copied());
-            DVector::from_iterator(count * tips, all)
-        };
-        let residues_first = joined(&known, &self.slopes(of_residues)?, covariance);
-        // The poles first, in their units, and no delay.
-        let places: Vec<usize> =
-            (0..2 * count).map(|k| count * tips + k).chain(0..count * tips).collect();
-        let units = self.units();
-        let unit = |i: usize| if i < 2 * count { units[(i, i)] } else { 1.0 };
-        let n = places.len();
-        Some(DMatrix::from_fn(n, n, |i, k| {
-            residues_first[(places[i], places[k])] * unit(i) * unit(k)
-        }))
+    /// Root mean square of what is left of the motor's response, in its stretched standard errors.
+    fn motor_rms(&self) -> f64 {
+        let last = self.data.outputs.len() - 1;
+        let delays = usize::from(self.data.outputs[last].delay_s.is_some());
+        let unknowns = self.point.own_estimates[last].len() - delays;
+        let free = self.data.outputs[last].readings().saturating_sub(unknowns).max(1);
+        (self.point.costs[last] / free as f64).sqrt()
     }
 
     /// The fits of either side, with standard errors that count those of the poles and the delay.
-    fn finished(&self, tips: &[TipData], start: &BeamFit) -> Option<AtOnce> {
-        let linear = self.linear()?;
-        let free = linear.left.len().saturating_sub(self.unknowns()).max(1) as f64;
-        let spread = (linear.left.norm_squared() / free).sqrt().max(1.0);
-        let jacobian = self.slopes(|l| l.left.clone())?;
-        let Inverse { matrix, lost } = inverted(&jacobian.tr_mul(&jacobian));
-        if lost.iter().any(|lost| *lost) {
-            return None;
-        }
-        let covariance = matrix * (spread * spread);
-        let std = |k: usize| covariance[(k, k)].max(0.0).sqrt();
-        let poles = self.poles();
-        if !poles.is_sorted_by(|a, b| a.omega_rad_s < b.omega_rad_s) {
-            return None;
-        }
-        let mode = |&k: &usize| ModeEstimate {
-            natural_frequency_rad_s: Estimate {
-                value: poles[k].omega_rad_s,
-                std: poles[k].omega_rad_s * std(2 * k),
-            },
-            damping_ratio: Estimate { value: poles[k].damping_ratio, std: std(2 * k + 1) },
-        };
-        let of_beam = self.beam_covariance(&poles, spread, &covariance)?;
-        let count = poles.len();
-        let residue = |tip: usize, k: usize| {
-            let place = 2 * count + tip * count + k;
-            let std = of_beam[(place, place)].max(0.0).sqrt();
-            Estimate { value: linear.residues[tip][k], std }
-        };
-        let residues: Vec<Vec<Estimate>> =
-            (0..tips.len()).map(|tip| (0..count).map(|k| residue(tip, k)).collect()).collect();
+    fn fits(&self, tips: &[TipData], start: &BeamFit, motor: &MotorData) -> Option<AtOnce> {
+        let (point, modes) = (&self.point, &start.mode_poles);
+        let spread = (point.cost / self.free()).max(1.0);
+        let covariance = point.covariance()? * spread;
         let beam = BeamFit {
-            modes: self.modes.iter().map(mode).collect(),
-            transfer_functions: functions(&poles, &residues, &start.forms),
-            residues,
-            covariance: of_beam,
-            poles,
-            ..start.clone()
+            weighted_rms: start.weighted_rms,
+            relative_residual: start.relative_residual,
+            ..BeamFit::of_point(tips, point, &covariance, modes.clone())
         };
-
-        let motor = finish(&self.undelayed(), &self.modal_poles(), true, &linear.motor);
-        let (slopes, others) = self.of_motor(&covariance)?;
-        let mut motor = motor.with_errors_of(&slopes, &others);
-        let last = self.x.len() - 1;
-        motor.delay_s = self.has_delay().then(|| {
-            Estimate { value: self.x[last], std: std(last) }.scaled(1.0 / self.fastest_rad_s)
-        });
+        // J, V, c_k, then ω_k and ζ_k of the modes, then the delay.
+        let (own, first) = (2 + modes.len(), *point.places().0.last()?);
+        let highest_rad_s = self.data.range().1;
+        let mut by_unknowns = DMatrix::zeros(own + 2 * modes.len() + 1, covariance.nrows());
+        for i in 0..own {
+            by_unknowns[(i, first + i)] = 1.0;
+        }
+        for (i, &k) in modes.iter().enumerate() {
+            by_unknowns[(own + 2 * i, 2 * k)] = point.poles[k].omega_rad_s;
+            by_unknowns[(own + 2 * i + 1, 2 * k + 1)] = 1.0;
+        }
+        // The torque per angle comes earlier by what the angle is late.
+        let delay_s = self.data.outputs.last()?.delay_s.map(|early_s| -early_s);
+        let last = own + 2 * modes.len();
+        if delay_s.is_some() {
+            by_unknowns[(last, first + own)] = -1.0 / highest_rad_s;
+        }
+        let covariance = &by_unknowns * covariance * by_unknowns.transpose();
+        let std = covariance[(last, last)].max(0.0).sqrt();
+        let value = point.own_estimates.last()?.rows(0, own).into_owned();
+        let poles = modes.iter().map(|&k| point.poles[k]).collect();
+        let mut motor = MotorFit::of_values(&value, &covariance, poles, motor.torque_per_command);
+        motor.weighted_rms = self.motor_rms() * self.stretch;
+        motor.delay_s = delay_s.map(|value| Estimate { value, std });
         Some(AtOnce { beam, motor })
-    }
-}
-
-impl LeastSquaresProblem<f64, Dyn, Dyn> for JointProblem<'_> {
-    type ResidualStorage = Owned<f64, Dyn>;
-    type JacobianStorage = Owned<f64, Dyn, Dyn>;
-    type ParameterStorage = Owned<f64, Dyn>;
-
-    fn set_params(&mut self, x: &DVector<f64>) {
-        self.x.copy_from(x);
-    }
-    fn params(&self) -> DVector<f64> {
-        self.x.clone()
-    }
-    fn residuals(&self) -> Option<DVector<f64>> {
-        Some(self.linear()?.left)
-    }
-    fn jacobian(&self) -> Option<DMatrix<f64>> {
-        self.slopes(|l| l.left.clone())
     }
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::identify::responses::correct::Response;
+    use crate::identify::responses::rational::Pole;
     use crate::identify::responses::rational::beam::{TipForm, fit_beam};
     use crate::identify::responses::rational::motor::{MotorData, fit_motor};
 

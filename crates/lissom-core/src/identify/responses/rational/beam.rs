@@ -1,26 +1,24 @@
 //! Common poles and residues of the tips' responses to the motor's angle.
 
-use levenberg_marquardt::{LeastSquaresProblem, LevenbergMarquardt};
-use nalgebra::storage::Owned;
-use nalgebra::{DMatrix, DVector, Dyn};
+use nalgebra::{DMatrix, DVector};
 use num_complex::Complex64;
 
 use crate::identify::estimate::{Estimate, ModeEstimate};
 use crate::identify::responses::correct::Response;
 use crate::identify::responses::rational::fit_covariance::{joined, of_coefficients};
+use crate::identify::responses::rational::pole_damping::Damping;
+use crate::identify::responses::rational::refine::{PolePoint, refined};
+use crate::identify::responses::rational::shared_poles::with_one_more;
+use crate::identify::responses::rational::weighted::{Basis, Output, Weighted};
 use crate::identify::responses::rational::{
-    Pole, common_denominator, information, others, part_error, trial_frequencies,
+    Pole, common_denominator, information, others, part_error,
 };
 use crate::identify::responses::thresholds::{
     MODE_DAMPING_MOST, MODES_MOST, POLE_ABOVE, POLE_BELOW, POLE_DAMPING_LEAST, POLE_DAMPING_MOST,
     RESPONSE_FLOOR,
 };
 use crate::identify::thresholds::{CLEARLY_PRESENT, SIGN_SHOWN};
-use crate::information::covariance;
 use crate::lti::{CoefficientCovariance, TransferFunction, add, multiply};
-
-/// Damping ratio with which a new mode starts.
-const START_DAMPING: f64 = 0.02;
 
 /// How the response of a tip follows from the modes.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -70,7 +68,7 @@ pub struct BeamFit {
 /// `θ_i/θ_m = Σ_k r_ik/(s² + 2ζ_kω_k·s + ω_k²)`, with r_ik in 1/s²; times s² for [`TipForm::SecondDerivative`].
 ///
 /// Modes are added one at a time. Each starts at the frequency where it lowers the cost most; then all are refined
-/// together by the Levenberg-Marquardt method. The number of modes is the one with the lowest Bayesian information
+/// together by the Gauss-Newton method. The number of modes is the one with the lowest Bayesian information
 /// criterion. `None` with fewer than four frequencies.
 ///
 /// ```
@@ -94,234 +92,147 @@ pub fn fit_beam(omega_rad_s: &[f64], tips: &[TipData]) -> Option<BeamFit> {
     if m < 4 || tips.is_empty() || tips.iter().any(|t| t.response.len() != m) {
         return None;
     }
-    let data = Data::new(omega_rad_s, tips)?;
-    let mut best: Option<(f64, BeamProblem)> = None;
+    let outputs: Option<_> = tips.iter().map(|tip| output(omega_rad_s, tip, 1.0)).collect();
+    let data = Weighted { omega: omega_rad_s.to_vec(), outputs: outputs? };
+    let (readings, (low, high)) = (data.readings(), data.range());
+    let mut best: Option<(f64, BeamFit)> = None;
     let mut poles: Vec<Pole> = Vec::new();
     for count in 1..=MODES_MOST {
-        let parameters = count * (2 + tips.len());
-        if parameters + 2 > 2 * m * tips.len() {
+        let unknowns = count * (2 + tips.len());
+        if unknowns + 2 > readings {
             break;
         }
-        let Some(start) = data.best_start(&poles) else { break };
-        poles.push(start);
-        let residues = data.residues(&poles)?;
-        let problem = BeamProblem { data: &data, x: pack(&poles, &residues) };
-        let (solved, _) = LevenbergMarquardt::new().with_patience(200).minimize(problem);
-        poles = solved.poles();
-        let low = omega_rad_s.iter().copied().fold(f64::INFINITY, f64::min);
-        let high = omega_rad_s.iter().copied().fold(0.0, f64::max);
+        let start = with_one_more(&data, &poles, Damping::Small);
+        let Some(point) = start.and_then(|poles| refined(&data, poles, Damping::Small)) else {
+            break;
+        };
         let plausible = |p: &Pole| {
             (POLE_DAMPING_LEAST..POLE_DAMPING_MOST).contains(&p.damping_ratio)
                 && p.omega_rad_s > POLE_BELOW * low
                 && p.omega_rad_s < POLE_ABOVE * high
         };
-        if !poles.iter().all(plausible) || !solved.all_residues_are_there() {
+        if !point.poles.iter().all(plausible) {
             break;
         }
-        let cost = solved.residuals()?.norm_squared();
-        let score = information(2 * m * tips.len(), parameters, cost);
+        let free = (readings - unknowns) as f64;
+        let weighted_rms = (point.cost / free).sqrt();
+        let spread = part_error(weighted_rms);
+        let covariance = point.covariance()? * spread.powi(2);
+        let fit = BeamFit::of_point(tips, &point, &covariance, (0..count).collect());
+        // Standard errors by what is left, also where that is less than the responses claim.
+        let clear = CLEARLY_PRESENT * weighted_rms / spread;
+        let felt = |k: usize| fit.residues.iter().any(|r| r[k].value.abs() > clear * r[k].std);
+        let score = information(readings, unknowns, point.cost);
         let improved = best.as_ref().is_none_or(|(least, _)| score < *least);
-        if !improved {
+        if !(0..count).all(felt) || !improved {
             break;
         }
-        let explained = cost <= (2 * m * tips.len() - parameters) as f64;
-        best = Some((score, solved));
-        if explained {
+        poles.clone_from(&point.poles);
+        let relative_residual = fit.relative_residual(omega_rad_s, tips);
+        best = Some((score, BeamFit { weighted_rms, relative_residual, ..fit }));
+        if point.cost <= free {
             // Within what the responses claim: another mode would fit their errors.
             break;
         }
     }
-    best.and_then(|(_, solved)| finish(&data, tips, &solved))
+    let fit = best?.1;
+    let is_mode = |k: &usize| {
+        let ModeEstimate { natural_frequency_rad_s: at, damping_ratio: zeta } = fit.modes[*k];
+        let damped = zeta.value < MODE_DAMPING_MOST && zeta.value > -SIGN_SHOWN * zeta.std;
+        damped && at.std.is_finite() && (low..=high).contains(&at.value)
+    };
+    let mode_poles: Vec<usize> = (0..fit.poles.len()).filter(is_mode).collect();
+    let modes = mode_poles.iter().map(|&k| fit.modes[k]).collect();
+    Some(BeamFit { modes, mode_poles, ..fit })
 }
 
-pub(super) struct Data {
-    omega: Vec<f64>,
-    forms: Vec<TipForm>,
-    /// By tip: response and weight 1/σ at each frequency.
-    points: Vec<Vec<(Complex64, f64)>>,
-}
-
-impl Data {
-    pub(super) fn new(omega: &[f64], tips: &[TipData]) -> Option<Self> {
-        let points = tips
-            .iter()
-            .map(|t| {
-                t.response
-                    .iter()
-                    .map(|r| {
-                        let sigma = r.std.hypot(RESPONSE_FLOOR * r.value.norm());
-                        (sigma > 0.0 && sigma.is_finite()).then_some((r.value, 1.0 / sigma))
-                    })
-                    .collect::<Option<Vec<_>>>()
-            })
-            .collect::<Option<Vec<_>>>()?;
-        Some(Self { omega: omega.to_vec(), forms: tips.iter().map(|t| t.form).collect(), points })
-    }
-
-    /// How many tips.
-    pub(super) fn len(&self) -> usize {
-        self.forms.len()
-    }
-
-    fn shape(&self, tip: usize, omega: f64) -> f64 {
-        match self.forms[tip] {
-            TipForm::Angle => 1.0,
-            TipForm::SecondDerivative => -omega * omega,
+/// The response of a tip as that of an angle, standard errors stretched by `stretch`. `None` where one has none.
+pub(super) fn output(omega_rad_s: &[f64], tip: &TipData, stretch: f64) -> Option<Output> {
+    let (mut values, mut weights) = (Vec::new(), Vec::new());
+    for (&omega, r) in omega_rad_s.iter().zip(&tip.response) {
+        let shape = tip.form.shape(omega);
+        let sigma = r.std.hypot(RESPONSE_FLOOR * r.value.norm());
+        if !(sigma > 0.0 && sigma.is_finite()) {
+            return None;
         }
+        values.push(r.value / shape);
+        weights.push(shape.abs() / (sigma * stretch));
     }
+    Some(Output::new(Basis::Residues, &values, weights))
+}
 
-    /// Weighted linear least squares for the residues of one tip, and what it leaves.
-    pub(super) fn residues_of(
-        &self,
-        tip: usize,
-        poles: &[Pole],
-    ) -> Option<(DVector<f64>, DVector<f64>)> {
-        let (a, b) = self.residue_rows(tip, poles);
-        let solution = a.clone().svd(true, true).solve(&b, 1e-12).ok()?;
-        let left = b - a * &solution;
-        Some((solution, left))
-    }
-
-    /// Rows of the residues of one tip over the standard errors of its responses.
-    pub(super) fn residue_rows(&self, tip: usize, poles: &[Pole]) -> (DMatrix<f64>, DVector<f64>) {
-        let m = self.omega.len();
-        let mut a = DMatrix::zeros(2 * m, poles.len());
-        let mut b = DVector::zeros(2 * m);
-        for (row, (&w, &(value, weight))) in self.omega.iter().zip(&self.points[tip]).enumerate() {
-            for (k, pole) in poles.iter().enumerate() {
-                let z = weight * self.shape(tip, w) / pole.denominator(w);
-                (a[(2 * row, k)], a[(2 * row + 1, k)]) = (z.re, z.im);
-            }
-            (b[2 * row], b[2 * row + 1]) = (weight * value.re, weight * value.im);
+impl TipForm {
+    /// By which the response of an angle is multiplied.
+    fn shape(self, omega_rad_s: f64) -> f64 {
+        match self {
+            Self::Angle => 1.0,
+            Self::SecondDerivative => -omega_rad_s * omega_rad_s,
         }
-        (a, b)
-    }
-
-    fn residues(&self, poles: &[Pole]) -> Option<Vec<DVector<f64>>> {
-        (0..self.forms.len()).map(|i| Some(self.residues_of(i, poles)?.0)).collect()
-    }
-
-    /// The pole whose addition lowers the cost most.
-    fn best_start(&self, poles: &[Pole]) -> Option<Pole> {
-        let cost = |candidate: Pole| -> Option<f64> {
-            let all: Vec<Pole> = poles.iter().copied().chain([candidate]).collect();
-            let each = (0..self.forms.len()).map(|i| self.residues_of(i, &all));
-            each.map(|found| Some(found?.1.norm_squared())).sum()
-        };
-        trial_frequencies(&self.omega)
-            .into_iter()
-            .map(|omega_rad_s| Pole { omega_rad_s, damping_ratio: START_DAMPING })
-            .filter_map(|p| Some((p, cost(p)?)))
-            .filter(|(_, c)| c.is_finite())
-            .min_by(|a, b| a.1.total_cmp(&b.1))
-            .map(|(p, _)| p)
-    }
-}
-
-/// Parameters: ω_k, ζ_k of each pole, then the residues tip by tip.
-fn pack(poles: &[Pole], residues: &[DVector<f64>]) -> DVector<f64> {
-    let head = poles.iter().flat_map(|p| [p.omega_rad_s, p.damping_ratio]);
-    let tail = residues.iter().flat_map(|r| r.iter().copied());
-    DVector::from_iterator(poles.len() * (2 + residues.len()), head.chain(tail))
-}
-
-struct BeamProblem<'a> {
-    data: &'a Data,
-    x: DVector<f64>,
-}
-
-impl BeamProblem<'_> {
-    fn modes(&self) -> usize {
-        self.x.len() / (2 + self.data.forms.len())
-    }
-    fn poles(&self) -> Vec<Pole> {
-        (0..self.modes())
-            .map(|k| Pole { omega_rad_s: self.x[2 * k].abs(), damping_ratio: self.x[2 * k + 1] })
-            .collect()
-    }
-    fn residue(&self, tip: usize, mode: usize) -> usize {
-        2 * self.modes() + tip * self.modes() + mode
-    }
-    /// Calls `visit` with the row of each real residual's first half, its data and weight.
-    fn rows(&self, mut visit: impl FnMut(usize, usize, f64, Complex64, f64)) {
-        let mut row = 0;
-        for (tip, points) in self.data.points.iter().enumerate() {
-            for (&w, &(value, weight)) in self.data.omega.iter().zip(points) {
-                visit(row, tip, w, value, weight);
-                row += 2;
-            }
-        }
-    }
-    /// Whether each mode has a residue in some tip that stands clear of its standard error.
-    fn all_residues_are_there(&self) -> bool {
-        let Some((jacobian, residuals)) = self.jacobian().zip(self.residuals()) else {
-            return false;
-        };
-        let covariance = covariance(&jacobian.tr_mul(&jacobian));
-        let free = residuals.len().saturating_sub(self.x.len()).max(1) as f64;
-        let spread = (residuals.norm_squared() / free).sqrt();
-        (0..self.modes()).all(|k| {
-            (0..self.data.forms.len()).any(|tip| {
-                let at = self.residue(tip, k);
-                self.x[at].abs() > CLEARLY_PRESENT * spread * covariance[(at, at)].max(0.0).sqrt()
-            })
-        })
-    }
-    fn rows_len(&self) -> usize {
-        2 * self.data.omega.len() * self.data.forms.len()
-    }
-}
-
-impl LeastSquaresProblem<f64, Dyn, Dyn> for BeamProblem<'_> {
-    type ResidualStorage = Owned<f64, Dyn>;
-    type JacobianStorage = Owned<f64, Dyn, Dyn>;
-    type ParameterStorage = Owned<f64, Dyn>;
-
-    fn set_params(&mut self, x: &DVector<f64>) {
-        self.x.copy_from(x);
-    }
-    fn params(&self) -> DVector<f64> {
-        self.x.clone()
-    }
-    fn residuals(&self) -> Option<DVector<f64>> {
-        let poles = self.poles();
-        let mut out = DVector::zeros(self.rows_len());
-        self.rows(|row, tip, w, value, weight| {
-            let model: Complex64 = poles
-                .iter()
-                .enumerate()
-                .map(|(k, p)| {
-                    self.x[self.residue(tip, k)] * self.data.shape(tip, w) / p.denominator(w)
-                })
-                .sum();
-            let r = (model - value) * weight;
-            (out[row], out[row + 1]) = (r.re, r.im);
-        });
-        out.iter().all(|v| v.is_finite()).then_some(out)
-    }
-    fn jacobian(&self) -> Option<DMatrix<f64>> {
-        let poles = self.poles();
-        let mut out = DMatrix::zeros(self.rows_len(), self.x.len());
-        self.rows(|row, tip, w, _, weight| {
-            for (k, p) in poles.iter().enumerate() {
-                let inverse = 1.0 / p.denominator(w);
-                let unit = weight * self.data.shape(tip, w) * inverse;
-                let r = self.residue(tip, k);
-                let steep = -self.x[r] * unit * inverse;
-                let by_omega = steep
-                    * Complex64::new(2.0 * p.omega_rad_s, 2.0 * p.damping_ratio * w)
-                    * self.x[2 * k].signum();
-                let by_damping = steep * Complex64::new(0.0, 2.0 * p.omega_rad_s * w);
-                for (column, z) in [(2 * k, by_omega), (2 * k + 1, by_damping), (r, unit)] {
-                    (out[(row, column)], out[(row + 1, column)]) = (z.re, z.im);
-                }
-            }
-        });
-        out.iter().all(|v| v.is_finite()).then_some(out)
     }
 }
 
 impl BeamFit {
+    /// Of poles and residues that were fitted to the tips first, and whose unknowns have this covariance. What is left is zero.
+    pub(super) fn of_point(
+        tips: &[TipData],
+        point: &PolePoint,
+        covariance: &DMatrix<f64>,
+        mode_poles: Vec<usize>,
+    ) -> Self {
+        let (count, (places, size)) = (point.poles.len(), point.places());
+        // ω_k and ζ_k, then r_ik = ρ_ik·ω_k², by ln ω_k, ζ_k and ρ_ik.
+        let mut by_unknowns = DMatrix::zeros(count * (2 + tips.len()), size);
+        for (k, pole) in point.poles.iter().enumerate() {
+            let w = pole.omega_rad_s;
+            by_unknowns[(2 * k, 2 * k)] = w;
+            by_unknowns[(2 * k + 1, 2 * k + 1)] = 1.0;
+            for (tip, place) in places.iter().take(tips.len()).enumerate() {
+                let row = 2 * count + tip * count + k;
+                by_unknowns[(row, place + k)] = w * w;
+                by_unknowns[(row, 2 * k)] = 2.0 * w * w * point.own_estimates[tip][k];
+            }
+        }
+        let covariance = &by_unknowns * covariance * by_unknowns.transpose();
+        let estimate =
+            |value: f64, at: usize| Estimate { value, std: covariance[(at, at)].max(0.0).sqrt() };
+        let mode = |&k: &usize| ModeEstimate {
+            natural_frequency_rad_s: estimate(point.poles[k].omega_rad_s, 2 * k),
+            damping_ratio: estimate(point.poles[k].damping_ratio, 2 * k + 1),
+        };
+        let residue = |tip: usize, k: usize| {
+            let value = point.own_estimates[tip][k] * point.poles[k].omega_rad_s.powi(2);
+            estimate(value, 2 * count + tip * count + k)
+        };
+        let of_tip = |tip: usize| (0..count).map(|k| residue(tip, k)).collect();
+        let residues: Vec<Vec<Estimate>> = (0..tips.len()).map(of_tip).collect();
+        let forms: Vec<TipForm> = tips.iter().map(|tip| tip.form).collect();
+        Self {
+            modes: mode_poles.iter().map(mode).collect(),
+            mode_poles,
+            transfer_functions: functions(&point.poles, &residues, &forms),
+            residues,
+            weighted_rms: 0.0,
+            relative_residual: 0.0,
+            forms,
+            covariance,
+            poles: point.poles.clone(),
+        }
+    }
+
+    /// Root mean square of what is left of the tips' responses, relative to these.
+    fn relative_residual(&self, omega_rad_s: &[f64], tips: &[TipData]) -> f64 {
+        let (mut left, mut power) = (0.0, 0.0);
+        for (tip, residues) in tips.iter().zip(&self.residues) {
+            for (&omega, r) in omega_rad_s.iter().zip(&tip.response) {
+                let part = |(p, r): (&Pole, &Estimate)| r.value / p.denominator(omega);
+                let model: Complex64 = self.poles.iter().zip(residues).map(part).sum();
+                left += (tip.form.shape(omega) * model - r.value).norm_sqr();
+                power += r.value.norm_sqr();
+            }
+        }
+        (left / power).sqrt()
+    }
+
     /// Natural frequencies of its modes \[rad/s\].
     pub(crate) fn frequencies_rad_s(&self) -> Vec<f64> {
         self.modes.iter().map(|mode| mode.natural_frequency_rad_s.value).collect()
@@ -389,77 +300,8 @@ impl BeamFit {
     }
 }
 
-fn finish(data: &Data, tips: &[TipData], solved: &BeamProblem) -> Option<BeamFit> {
-    let jacobian = solved.jacobian()?;
-    let residuals = solved.residuals()?;
-    let free = residuals.len().saturating_sub(solved.x.len()).max(1) as f64;
-    let weighted_rms = (residuals.norm_squared() / free).sqrt();
-    let spread = part_error(weighted_rms);
-    let covariance = covariance(&jacobian.tr_mul(&jacobian));
-    let std = |i: usize| spread * covariance[(i, i)].max(0.0).sqrt();
-    let found = solved.poles();
-    let mut order: Vec<usize> = (0..found.len()).collect();
-    order.sort_by(|a, b| found[*a].omega_rad_s.total_cmp(&found[*b].omega_rad_s));
-    let poles: Vec<Pole> = order.iter().map(|&k| found[k]).collect();
-    let low = data.omega.iter().copied().fold(f64::INFINITY, f64::min);
-    let high = data.omega.iter().copied().fold(0.0, f64::max);
-    let mode_poles: Vec<usize> = (0..poles.len())
-        .filter(|&i| {
-            let (zeta, at) = (poles[i].damping_ratio, poles[i].omega_rad_s);
-            let damped = zeta < MODE_DAMPING_MOST && zeta > -SIGN_SHOWN * std(2 * order[i] + 1);
-            damped && std(2 * order[i]).is_finite() && (low..=high).contains(&at)
-        })
-        .collect();
-    let modes = mode_poles
-        .iter()
-        .map(|&i| ModeEstimate {
-            natural_frequency_rad_s: Estimate {
-                value: poles[i].omega_rad_s,
-                std: std(2 * order[i]),
-            },
-            damping_ratio: Estimate { value: poles[i].damping_ratio, std: std(2 * order[i] + 1) },
-        })
-        .collect();
-    let residues: Vec<Vec<Estimate>> = (0..tips.len())
-        .map(|i| {
-            order
-                .iter()
-                .map(|&k| {
-                    let at = solved.residue(i, k);
-                    Estimate { value: solved.x[at], std: std(at) }
-                })
-                .collect()
-        })
-        .collect();
-    let forms: Vec<TipForm> = tips.iter().map(|tip| tip.form).collect();
-    let transfer_functions = functions(&poles, &residues, &forms);
-    let of_poles = order.iter().flat_map(|k| [2 * k, 2 * k + 1]);
-    let of_residues = (0..tips.len()).flat_map(|i| order.iter().map(move |&k| (i, k)));
-    let places: Vec<usize> =
-        of_poles.chain(of_residues.map(|(i, k)| solved.residue(i, k))).collect();
-    let covariance = DMatrix::from_fn(places.len(), places.len(), |i, k| {
-        spread * spread * covariance[(places[i], places[k])]
-    });
-    let (mut left, mut power) = (0.0, 0.0);
-    solved.rows(|row, _, _, value, weight| {
-        left += (residuals[row].powi(2) + residuals[row + 1].powi(2)) / (weight * weight);
-        power += value.norm_sqr();
-    });
-    Some(BeamFit {
-        poles,
-        modes,
-        mode_poles,
-        residues,
-        transfer_functions,
-        weighted_rms,
-        relative_residual: (left / power).sqrt(),
-        forms,
-        covariance,
-    })
-}
-
 /// θ_i/θ_m, or the second derivative's, of each tip.
-pub(super) fn functions(
+fn functions(
     poles: &[Pole],
     residues: &[Vec<Estimate>],
     forms: &[TipForm],

@@ -140,7 +140,7 @@ impl MotorFit {
     }
 
     /// Of J, V and c_k, without a delay. The covariance is that of all, of the poles and of the delay.
-    fn of_values(
+    pub(super) fn of_values(
         value: &DVector<f64>,
         covariance: &DMatrix<f64>,
         poles: Vec<Pole>,
@@ -205,7 +205,7 @@ impl MotorFit {
 
     /// The same with the errors of poles and delay counted, whose covariance is `others`; `slopes` are those of J, V and
     /// c_k by them.
-    pub(super) fn with_errors_of(&self, slopes: &DMatrix<f64>, others: &DMatrix<f64>) -> Self {
+    fn with_errors_of(&self, slopes: &DMatrix<f64>, others: &DMatrix<f64>) -> Self {
         let own = 2 + self.poles.len();
         let known = self.covariance.view((0, 0), (own, own)).into_owned();
         let covariance = joined(&known, slopes, others);
@@ -411,12 +411,7 @@ fn scan(data: &MotorData) -> Option<(Pole, Solution)> {
     best
 }
 
-pub(super) fn finish(
-    data: &MotorData,
-    poles: &[Pole],
-    poles_given: bool,
-    s: &Solution,
-) -> MotorFit {
+fn finish(data: &MotorData, poles: &[Pole], poles_given: bool, s: &Solution) -> MotorFit {
     // A pole that was fitted has two numbers.
     let fitted = if poles_given { 0 } else { 2 * poles.len() };
     let weighted_rms = s.weighted_rms(fitted);

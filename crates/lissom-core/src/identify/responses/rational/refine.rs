@@ -7,7 +7,7 @@ use crate::identify::responses::rational::Pole;
 use crate::identify::responses::rational::columns::{inverses, push_column, push_weighted, shape};
 use crate::identify::responses::rational::pole_damping::Damping;
 use crate::identify::responses::rational::products::products;
-use crate::identify::responses::rational::weighted::{Output, Weighted};
+use crate::identify::responses::rational::weighted::{Basis, Output, Weighted};
 
 /// Most steps.
 const STEPS: usize = 40;
@@ -34,6 +34,8 @@ pub(super) struct PolePoint {
     pub(super) own_estimates: Vec<DVector<f64>>,
     /// Squares of the residuals, each part in its deviations.
     pub(super) cost: f64,
+    /// The same of each output.
+    pub(super) costs: Vec<f64>,
     /// By ln ω_k and, of damped poles, ζ_k, the gains eliminated.
     normal: DMatrix<f64>,
     right: DVector<f64>,
@@ -128,6 +130,7 @@ impl PolePoint {
             poles,
             own_estimates: Vec::new(),
             cost: 0.0,
+            costs: Vec::new(),
             normal: DMatrix::zeros(unknowns, unknowns),
             right: DVector::zeros(unknowns),
             own: Vec::new(),
@@ -136,6 +139,7 @@ impl PolePoint {
             found.normal += one.normal;
             found.right += one.right;
             found.cost += one.cost;
+            found.costs.push(one.cost);
             found.own_estimates.push(one.estimates);
             found.own.push(one.own);
         }
@@ -162,6 +166,16 @@ impl PolePoint {
         let delayed = usize::from(data.outputs[output].delay_s.is_some());
         let in_s = estimates.len() - delayed > count;
         let at = |(omega, weight): (&f64, &f64)| {
+            if let Basis::Torque(coupled) = &data.outputs[output].basis {
+                let s = Complex64::new(0.0, *omega);
+                let through = |(c, k): (&f64, &usize)| {
+                    let pole = &self.poles[*k];
+                    c * (1.0 - pole.omega_rad_s.powi(2) / pole.denominator(*omega))
+                };
+                let coupling = estimates.iter().skip(2).zip(coupled).map(through);
+                let rigid = s * (s * estimates[0] + estimates[1]);
+                return weight * (rigid + coupling.sum::<Complex64>());
+            }
             let part = |(k, pole): (usize, &Pole)| {
                 let w = pole.omega_rad_s;
                 let term = if in_s { estimates[count + k] * w * omega } else { 0.0 };
@@ -262,7 +276,11 @@ impl OneOutput {
         count: usize,
         damping: Damping,
     ) -> Option<Self> {
-        let (points, gains) = (data.omega.len(), damping.terms() * count);
+        let points = data.omega.len();
+        let gains = match &output.basis {
+            Basis::Residues => damping.terms() * count,
+            Basis::Torque(coupled) => 2 + coupled.len(),
+        };
         let delayed = usize::from(output.delay_s.is_some());
         let (own, unknowns) = (gains + delayed, count * damping.unknowns());
         // What was measured, the basis, then the slopes by the poles.
@@ -273,8 +291,24 @@ impl OneOutput {
         };
         all.extend(output.weighted.iter().map(|value| value.re));
         all.extend(output.weighted.iter().map(|value| value.im));
-        for column in 0..gains {
-            push(&mut all, column, 1.0);
+        match &output.basis {
+            Basis::Residues => (0..gains).for_each(|column| push(&mut all, column, 1.0)),
+            Basis::Torque(coupled) => {
+                let weights = || data.omega.iter().zip(&output.weights);
+                let nothing = || std::iter::repeat_n(0.0, points);
+                all.extend(
+                    weights().map(|(omega, weight)| -omega * omega * weight).chain(nothing()),
+                );
+                all.extend(nothing().chain(weights().map(|(omega, weight)| omega * weight)));
+                for &pole in coupled {
+                    push(&mut all, pole, -1.0);
+                    let real = all.len() - 2 * points;
+                    all[real..]
+                        .iter_mut()
+                        .zip(&output.weights)
+                        .for_each(|(z, weight)| *z += weight);
+                }
+            }
         }
         if delayed > 0 {
             // e^(s·δ)·d = Σ of the poles: to first order d less −s·δ times the model.
@@ -291,12 +325,21 @@ impl OneOutput {
         for (column, estimate) in basis.chunks_exact(2 * points).zip(&estimates) {
             left.iter_mut().zip(column).for_each(|(left, part)| *left -= estimate * part);
         }
+        // Slopes of the shared columns stand behind the residues' basis.
+        let basis = damping.terms() * count;
         for slope in 0..unknowns {
             let pole = slope / damping.unknowns();
-            push(&mut all, gains + slope, estimates[pole]);
+            let gain = match &output.basis {
+                Basis::Residues => estimates[pole],
+                Basis::Torque(coupled) => {
+                    let place = coupled.iter().position(|k| *k == pole);
+                    place.map_or(0.0, |place| -estimates[2 + place])
+                }
+            };
+            push(&mut all, basis + slope, gain);
             if damping == Damping::Within {
                 let sum = all.len() - 2 * points;
-                push(&mut all, gains + unknowns + slope, estimates[count + pole]);
+                push(&mut all, basis + unknowns + slope, estimates[count + pole]);
                 let (sums, more) = all[sum..].split_at_mut(2 * points);
                 sums.iter_mut().zip(more).for_each(|(sum, part)| *sum += *part);
                 all.truncate(sum + 2 * points);

@@ -195,22 +195,29 @@ fn one_after_another(
     modes: usize,
     damping: Damping,
 ) -> Option<(Weighted, PolePoint)> {
-    let trials = trial_frequencies(&data.omega);
     let mut best: Option<(Weighted, PolePoint)> = None;
     for _ in 0..modes {
         let (data, before) = match best {
             Some((data, point)) => (data, point.poles),
             None => (data.clone(), Vec::new()),
         };
-        let with = |omega_rad_s: f64| {
-            let more = Pole { omega_rad_s, damping_ratio: START_DAMPING };
-            PolePoint::new(&data, before.iter().copied().chain([more]).collect(), damping)
-        };
-        let found = trials.iter().filter_map(|w| with(*w));
-        let start = found.min_by(|a, b| a.cost.total_cmp(&b.cost))?;
-        best = best_near(&data, start.poles, damping);
+        best = best_near(&data, with_one_more(&data, &before, damping)?, damping);
     }
     best
+}
+
+/// `poles` and the one, of many frequencies, whose addition lowers the cost most.
+pub(super) fn with_one_more(
+    data: &Weighted,
+    poles: &[Pole],
+    damping: Damping,
+) -> Option<Vec<Pole>> {
+    let with = |omega_rad_s: f64| {
+        let more = Pole { omega_rad_s, damping_ratio: START_DAMPING };
+        PolePoint::new(data, poles.iter().copied().chain([more]).collect(), damping)
+    };
+    let found = trial_frequencies(&data.omega).into_iter().filter_map(with);
+    Some(found.min_by(|a, b| a.cost.total_cmp(&b.cost))?.poles)
 }
 
 /// Relocated until they stand nearly still.

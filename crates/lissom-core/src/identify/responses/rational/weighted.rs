@@ -19,9 +19,19 @@ pub(super) struct Weighted {
     pub(super) outputs: Vec<Output>,
 }
 
+/// What the model of an output consists of.
+#[derive(Clone)]
+pub(super) enum Basis {
+    /// A residue of each pole.
+    Residues,
+    /// Torque per angle of the motor, `J·s² + V·s + Σ c_k(1 − ω_k²/D_k)`, coupled through the poles of these indices.
+    Torque(Vec<usize>),
+}
+
 /// One output.
 #[derive(Clone)]
 pub(super) struct Output {
+    pub(super) basis: Basis,
     /// By which it was turned back, where a delay of it is looked for.
     pub(super) delay_s: Option<f64>,
     /// The last model of it, weighted: what a delay turns. The data themselves at first.
@@ -33,6 +43,23 @@ pub(super) struct Output {
 }
 
 impl Output {
+    /// Of values and weights; a weight of zero leaves a frequency out.
+    pub(super) fn new(basis: Basis, values: &[Complex64], weights: Vec<f64>) -> Self {
+        let weighted = values.iter().zip(&weights).map(|(value, weight)| value * weight).collect();
+        Self { basis, delay_s: None, model: Vec::new(), weights, weighted }
+    }
+
+    /// Looks for a delay.
+    pub(super) fn may_be_late(&mut self) {
+        self.delay_s = Some(0.0);
+        self.model.clone_from(&self.weighted);
+    }
+
+    /// How many real numbers it has.
+    pub(super) fn readings(&self) -> usize {
+        2 * self.weights.iter().filter(|weight| **weight > 0.0).count()
+    }
+
     /// Σ|H·√2/σ|².
     pub(super) fn squares(&self) -> f64 {
         self.weighted.iter().map(Complex64::norm_sqr).sum()
@@ -57,8 +84,8 @@ impl Weighted {
                 return Err(SharedPolesError::Response { output, index });
             }
             let weights: Vec<f64> = responses.iter().map(|r| SQRT_2 / r.std).collect();
-            let weighted = responses.iter().zip(&weights).map(|(r, weight)| r.value * weight);
-            Ok(Output { delay_s: None, model: Vec::new(), weighted: weighted.collect(), weights })
+            let values: Vec<Complex64> = responses.iter().map(|r| r.value).collect();
+            Ok(Output::new(Basis::Residues, &values, weights))
         };
         let outputs = outputs.iter().enumerate().map(output).collect::<Result<_, _>>()?;
         Ok(Self { omega: omega.to_vec(), outputs })
@@ -67,10 +94,7 @@ impl Weighted {
     /// The same with a delay to be looked for in each output.
     pub(super) fn with_delays(&self) -> Self {
         let mut data = self.clone();
-        for output in &mut data.outputs {
-            output.delay_s = Some(0.0);
-            output.model.clone_from(&output.weighted);
-        }
+        data.outputs.iter_mut().for_each(Output::may_be_late);
         data
     }
 
@@ -111,6 +135,6 @@ impl Weighted {
 
     /// Real numbers in all responses.
     pub(super) fn readings(&self) -> usize {
-        2 * self.omega.len() * self.outputs.len()
+        self.outputs.iter().map(Output::readings).sum()
     }
 }
