@@ -9,7 +9,7 @@ use crate::identify::methods::output_error::OutputError;
 use crate::identify::methods::regression::{BeamRegression, MotorRegression, Terms, coupled_tips};
 use crate::identify::responses::correct::Response;
 use crate::identify::responses::rational::{
-    BeamFit, MotorData, MotorFit, TipData, TipForm, fit_at_once, fit_beam, fit_motor,
+    BeamFit, MotorData, MotorFit, TipData, TipForm, fit_at_once, fit_beam, fit_motor, fit_motor_at,
 };
 use crate::identify::responses::response_point::ResponsePoint;
 use crate::identify::responses::response_table::tip_model;
@@ -124,8 +124,7 @@ pub(crate) fn motor_model(
 ) -> Option<MotorFit> {
     let data = motor_data(responses, constant);
     let Some(beam) = beam else { return fit_motor(&data, None) };
-    let fit = fit_motor(&data, Some(&beam.modal_poles()))?;
-    Some(fit.with_poles_of(&data, beam.modal_covariance().as_ref()))
+    fit_motor_at(&data, &beam.modal_poles(), beam.modal_covariance().as_ref())
 }
 
 /// The motor's corrected responses that nothing speaks against.

@@ -1,16 +1,15 @@
 //! Modes from the responses of tips and motor together.
 
-use nalgebra::{DMatrix, DVector};
+use nalgebra::DVector;
 use num_complex::Complex64;
 
-use crate::identify::estimate::Estimate;
 use crate::identify::responses::rational::beam::{BeamFit, TipData, output};
-use crate::identify::responses::rational::motor::{MotorData, MotorFit, solve};
+use crate::identify::responses::rational::motor::{self, MotorData, MotorFit, fit_motor};
 use crate::identify::responses::rational::pole_damping::Damping;
 use crate::identify::responses::rational::refine::{PolePoint, refined, refined_with_delays};
-use crate::identify::responses::rational::weighted::{Basis, Output, Weighted};
+use crate::identify::responses::rational::weighted::{Output, Weighted};
 use crate::identify::responses::rational::{information, part_error};
-use crate::identify::responses::thresholds::{CRITERION_CALLED_FOR, RESPONSE_FLOOR};
+use crate::identify::responses::thresholds::CRITERION_CALLED_FOR;
 
 /// Beam and motor with the same poles.
 pub(crate) struct AtOnce {
@@ -34,7 +33,7 @@ pub(crate) fn fit_at_once(
     start: &BeamFit,
     motor: &MotorData,
 ) -> Option<AtOnce> {
-    let alone = solve(motor, &start.modal_poles())?.weighted_rms(0);
+    let alone = fit_motor(motor, Some(&start.modal_poles()))?.weighted_rms;
     let of_tips = part_error(start.weighted_rms);
     let data =
         joined_data(omega_rad_s, tips, motor, &start.mode_poles, [of_tips, part_error(alone)])?;
@@ -59,11 +58,11 @@ pub(crate) fn fit_at_once(
 fn joined_data(
     omega_rad_s: &[f64],
     tips: &[TipData],
-    motor: &MotorData,
+    motor_data: &MotorData,
     modes: &[usize],
     [of_tips, of_motor]: [f64; 2],
 ) -> Option<Weighted> {
-    let mut omega: Vec<f64> = omega_rad_s.iter().chain(&motor.omega_rad_s).copied().collect();
+    let mut omega: Vec<f64> = omega_rad_s.iter().chain(&motor_data.omega_rad_s).copied().collect();
     omega.sort_by(f64::total_cmp);
     omega.dedup();
     let spread = |at: &[f64], output: Output| {
@@ -75,17 +74,10 @@ fn joined_data(
         }
         Output { weighted: values, weights, ..output }
     };
-    let (mut values, mut weights) = (Vec::new(), Vec::new());
-    for r in &motor.response {
-        let torque = motor.torque_per_command / r.value;
-        let relative = (r.std / r.value.norm()).hypot(RESPONSE_FLOOR);
-        values.push(torque);
-        weights.push(1.0 / (torque.norm() * relative * of_motor));
-    }
-    let torque = Output::new(Basis::Torque(modes.to_vec()), &values, weights);
+    let torque = motor::output(motor_data, modes.to_vec(), of_motor);
     let of_tip = |tip: &TipData| Some(spread(omega_rad_s, output(omega_rad_s, tip, of_tips)?));
     let mut outputs = tips.iter().map(of_tip).collect::<Option<Vec<_>>>()?;
-    outputs.push(spread(&motor.omega_rad_s, torque));
+    outputs.push(spread(&motor_data.omega_rad_s, torque));
     Some(Weighted { omega, outputs })
 }
 
@@ -141,30 +133,13 @@ impl Joint {
             relative_residual: start.relative_residual,
             ..BeamFit::of_point(tips, point, &covariance, modes.clone())
         };
-        // J, V, c_k, then ω_k and ζ_k of the modes, then the delay.
-        let (own, first) = (2 + modes.len(), *point.places().0.last()?);
-        let highest_rad_s = self.data.range().1;
-        let mut by_unknowns = DMatrix::zeros(own + 2 * modes.len() + 1, covariance.nrows());
-        for i in 0..own {
-            by_unknowns[(i, first + i)] = 1.0;
-        }
-        for (i, &k) in modes.iter().enumerate() {
-            by_unknowns[(own + 2 * i, 2 * k)] = point.poles[k].omega_rad_s;
-            by_unknowns[(own + 2 * i + 1, 2 * k + 1)] = 1.0;
-        }
         // The torque per angle comes earlier by what the angle is late.
-        let delay_s = self.data.outputs.last()?.delay_s.map(|early_s| -early_s);
-        let last = own + 2 * modes.len();
-        if delay_s.is_some() {
-            by_unknowns[(last, first + own)] = -1.0 / highest_rad_s;
-        }
-        let covariance = &by_unknowns * covariance * by_unknowns.transpose();
-        let std = covariance[(last, last)].max(0.0).sqrt();
-        let value = point.own_estimates.last()?.rows(0, own).into_owned();
-        let poles = modes.iter().map(|&k| point.poles[k]).collect();
-        let mut motor = MotorFit::of_values(&value, &covariance, poles, motor.torque_per_command);
+        let highest_rad_s = self.data.range().1;
+        let early_s = self.data.outputs.last()?.delay_s;
+        let late = early_s.map(|early_s| [-early_s, -1.0 / highest_rad_s]);
+        let constant = motor.torque_per_command;
+        let mut motor = MotorFit::of_point(point, &covariance, modes, late, constant)?;
         motor.weighted_rms = self.motor_rms() * self.stretch;
-        motor.delay_s = delay_s.map(|value| Estimate { value, std });
         Some(AtOnce { beam, motor })
     }
 }

@@ -4,7 +4,7 @@ use nalgebra::{DMatrix, DVector};
 use num_complex::Complex64;
 
 use crate::identify::estimate::Estimate;
-use crate::identify::responses::rational::motor::{MotorData, ResponseRows, least_squares};
+use crate::identify::responses::rational::motor::MotorData;
 use crate::identify::responses::rational::shared_poles::SharedPoles;
 use crate::identify::responses::rational::{Pole, information};
 use crate::identify::responses::thresholds::MOTOR_DELAY_CALLED_FOR;
@@ -110,6 +110,74 @@ struct FittedCoupling {
     criterion: f64,
 }
 
+/// The equation in its unknowns J, V and c_k: two rows a frequency, real part first.
+struct ResponseRows {
+    a: DMatrix<f64>,
+    b: DVector<f64>,
+    /// One over the standard error of the torque per angle, of each frequency.
+    weights: Vec<f64>,
+}
+
+impl ResponseRows {
+    /// The torque per angle and c_k of each of `count` poles is as `shape` has it. `None` where there are too few responses.
+    fn of_shapes(
+        data: &MotorData,
+        count: usize,
+        shape: impl Fn(usize, f64) -> Complex64,
+    ) -> Option<Self> {
+        let (m, p) = (data.response.len(), 2 + count);
+        if 2 * m < p + 2 {
+            return None;
+        }
+        let mut a = DMatrix::zeros(2 * m, p);
+        let mut b = DVector::zeros(2 * m);
+        let mut weights = Vec::with_capacity(m);
+        for (i, (&w, r)) in data.omega_rad_s.iter().zip(&data.response).enumerate() {
+            let inverse = data.torque_per_command / r.value;
+            let relative = r.std / r.value.norm();
+            let weight = 1.0 / (inverse.norm() * relative);
+            let s = Complex64::new(0.0, w);
+            let columns = [s * s, s].into_iter().chain((0..count).map(|k| shape(k, w)));
+            for (k, z) in columns.enumerate() {
+                (a[(2 * i, k)], a[(2 * i + 1, k)]) = (weight * z.re, weight * z.im);
+            }
+            (b[2 * i], b[2 * i + 1]) = (weight * inverse.re, weight * inverse.im);
+            weights.push(weight);
+        }
+        let sound = a.iter().chain(b.iter()).all(|v| v.is_finite());
+        sound.then_some(Self { a, b, weights })
+    }
+
+    /// Least squares, and (AᵀA)⁻¹.
+    fn solved(&self) -> Option<(DVector<f64>, DMatrix<f64>)> {
+        least_squares(&self.a, &self.b)
+    }
+}
+
+/// Least squares of `a·x = b`, and (aᵀa)⁻¹. The columns are brought to one size: c_k and J differ by orders.
+fn least_squares(a: &DMatrix<f64>, b: &DVector<f64>) -> Option<(DVector<f64>, DMatrix<f64>)> {
+    let sizes = DVector::from_fn(a.ncols(), |k, _| match a.column(k).norm() {
+        0.0 => 1.0,
+        size => size,
+    });
+    let mut scaled = a.clone();
+    for (mut column, size) in scaled.column_iter_mut().zip(&sizes) {
+        column /= *size;
+    }
+    if scaled.iter().chain(b.iter()).any(|v| !v.is_finite()) {
+        return None;
+    }
+    let normal = scaled.tr_mul(&scaled);
+    let value = scaled.svd(true, true).solve(b, 1e-13).ok()?;
+    let mut covariance = normal.pseudo_inverse(1e-15).ok()?;
+    for (j, mut column) in covariance.column_iter_mut().enumerate() {
+        for (i, v) in column.iter_mut().enumerate() {
+            *v /= sizes[i] * sizes[j];
+        }
+    }
+    Some((value.component_div(&sizes), covariance))
+}
+
 impl<'a> Motor<'a> {
     fn new(data: &'a MotorData, fit: &'a SharedPoles, beyond: &[Pole]) -> Self {
         Self { data, fit, poles: fit.poles.iter().chain(beyond).copied().collect() }
@@ -190,9 +258,8 @@ impl<'a> Motor<'a> {
             within: self.fit.within.iter().map(|w| w.value).collect(),
             delay_s: None,
         };
-        let mut rows = ResponseRows::of_shapes(self.data, self.poles.len(), 0.0, |k, w| {
-            self.shape(&start, k, w)
-        })?;
+        let mut rows =
+            ResponseRows::of_shapes(self.data, self.poles.len(), |k, w| self.shape(&start, k, w))?;
         for (i, (&w, r)) in self.data.omega_rad_s.iter().zip(&self.data.response).enumerate() {
             let Some(before) = before else { break };
             let measured = self.data.torque_per_command / r.value;

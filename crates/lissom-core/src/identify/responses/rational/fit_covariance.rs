@@ -64,7 +64,7 @@ mod tests {
 
     use crate::identify::Response;
     use crate::identify::responses::rational::{
-        MotorData, MotorFit, Pole, TipData, TipForm, fit_at_once, fit_beam, fit_motor,
+        MotorData, MotorFit, Pole, TipData, TipForm, fit_at_once, fit_beam, fit_motor, fit_motor_at,
     };
     use crate::lti::{CoefficientCovariance, TransferFunction};
 
@@ -160,8 +160,9 @@ mod tests {
             let tips = [tip_data(noisy(of_tip, source))];
             let beam = fit_beam(&omega(), &tips).unwrap();
             let data = motor_data(noisy(of_motor, source));
-            let fit = fit_motor(&data, Some(&beam.modal_poles())).unwrap();
-            drawn(&fit.with_poles_of(&data, beam.modal_covariance().as_ref()), of_motor)
+            let of_poles = beam.modal_covariance();
+            let fit = fit_motor_at(&data, &beam.modal_poles(), of_poles.as_ref()).unwrap();
+            drawn(&fit, of_motor)
         }));
     }
 

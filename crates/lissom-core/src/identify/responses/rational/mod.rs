@@ -25,6 +25,7 @@ pub use beam::{BeamFit, TipData, TipForm, fit_beam};
 pub(crate) use coupling::{CouplingFit, coupled, fit_coupling};
 pub use evidence::fit_shared_poles_by_evidence;
 pub(crate) use evidence::fit_shared_poles_with_delays;
+pub(crate) use motor::fit_motor_at;
 pub use motor::{MotorData, MotorFit, fit_motor};
 pub use origin::without_origin;
 pub use pole_damping::Damping;

@@ -6,21 +6,18 @@ use num_complex::Complex64;
 use crate::identify::estimate::{Estimate, ModeEstimate};
 use crate::identify::responses::correct::Response;
 use crate::identify::responses::rational::fit_covariance::{joined, of_coefficients};
+use crate::identify::responses::rational::pole_damping::Damping;
+use crate::identify::responses::rational::refine::{PolePoint, refined};
+use crate::identify::responses::rational::weighted::{Basis, Output, Weighted};
 use crate::identify::responses::rational::{
     Pole, common_denominator, information, others, part_error, trial_frequencies,
 };
 use crate::identify::responses::thresholds::RESPONSE_FLOOR;
-use crate::information::{Inverse, inverted};
 use crate::lti::{CoefficientCovariance, TransferFunction, add, multiply};
 use crate::record::Command;
 
 /// Damping ratios tried for a pole that no tip shows.
 const TRIAL_DAMPING: [f64; 4] = [0.005, 0.02, 0.06, 0.15];
-/// Halvings of the grid about the best trial pole.
-const REFINEMENTS: usize = 12;
-/// Share of a pole over which slopes are taken to either side.
-const STEP: f64 = 1e-6;
-
 /// The motor's response, corrected for friction.
 #[derive(Debug, Clone)]
 pub struct MotorData {
@@ -56,7 +53,7 @@ pub struct MotorFit {
     /// Torque per unit of command.
     torque_per_command: f64,
     /// Covariance of J, V, c_k, then of ω_k \[rad/s\] and ζ_k of each pole, then of the delay \[s\]; poles that were given
-    /// have none until [`MotorFit::with_poles_of`].
+    /// may have none.
     covariance: DMatrix<f64>,
 }
 
@@ -81,20 +78,69 @@ pub struct MotorFit {
 /// `[Feliu1989, Section 4 step 6, 6.2.2, eqs. (35), (37)]`
 pub fn fit_motor(data: &MotorData, poles: Option<&[Pole]>) -> Option<MotorFit> {
     if let Some(poles) = poles {
-        return solve(data, poles).map(|s| finish(data, poles, true, &s));
+        return fit_motor_at(data, poles, Some(&DMatrix::zeros(2 * poles.len(), 2 * poles.len())));
     }
-    let rigid = solve(data, &[])?;
-    let n = 2 * data.response.len();
-    let flexible = scan(data).filter(|(_, s)| {
-        information(n, 5, s.cost()) < information(n, 2, rigid.cost()) && s.value[2] > 0.0
+    let rigid = fit_motor_at(data, &[], None)?;
+    let weighted = weighted(data, 1);
+    let trials = trial_frequencies(&data.omega_rad_s).into_iter().flat_map(|omega_rad_s| {
+        TRIAL_DAMPING.map(|damping_ratio| Pole { omega_rad_s, damping_ratio })
     });
-    Some(match flexible {
-        Some((pole, s)) => {
-            let fit = finish(data, &[pole], false, &s);
-            fit.with_poles_of(data, pole_covariance(data, pole, fit.weighted_rms).as_ref())
-        }
-        None => finish(data, &[], false, &rigid),
-    })
+    let tried = trials.filter_map(|pole| PolePoint::new(&weighted, vec![pole], Damping::Small));
+    let best = tried.min_by(|a, b| a.cost.total_cmp(&b.cost));
+    let flexible = best.and_then(|best| {
+        let point = refined(&weighted, best.poles, Damping::Small)?;
+        let (n, left) = (weighted.readings(), rigid.weighted_rms.powi(2));
+        let of_rigid = information(n, 2, left * (n - 2) as f64);
+        (information(n, 5, point.cost) < of_rigid && point.own_estimates[0][2] > 0.0)
+            .then_some(point)
+    });
+    let Some(point) = flexible else { return Some(rigid) };
+    let free = weighted.readings().saturating_sub(5).max(1) as f64;
+    let weighted_rms = (point.cost / free).sqrt();
+    let covariance = point.covariance()? * part_error(weighted_rms).powi(2);
+    let fit = MotorFit::of_point(&point, &covariance, &[0], None, data.torque_per_command)?;
+    Some(MotorFit { poles_given: false, weighted_rms, ..fit })
+}
+
+/// The same with given poles, the errors of which count: `of_poles` is the covariance of ω_k \[rad/s\] and ζ_k of each. If that
+/// is unknown, so is that of the transfer function.
+pub(crate) fn fit_motor_at(
+    data: &MotorData,
+    poles: &[Pole],
+    of_poles: Option<&DMatrix<f64>>,
+) -> Option<MotorFit> {
+    let (weighted, n) = (weighted(data, poles.len()), poles.len());
+    let free = weighted.readings().checked_sub(2 + n).filter(|free| *free >= 2)?;
+    let point = PolePoint::new(&weighted, poles.to_vec(), Damping::Small)?;
+    let weighted_rms = (point.cost / free as f64).sqrt();
+    // By ln ω_k and ζ_k.
+    let units = poles.iter().flat_map(|p| [p.omega_rad_s.recip(), 1.0]);
+    let units = DMatrix::from_diagonal(&DVector::from_iterator(2 * n, units));
+    let own = of_poles.map_or_else(|| DMatrix::zeros(2 * n, 2 * n), |own| &units * own * &units);
+    let covariance = point.covariance_with(0, &own, part_error(weighted_rms).powi(2));
+    let modes: Vec<usize> = (0..n).collect();
+    let mut fit = MotorFit::of_point(&point, &covariance, &modes, None, data.torque_per_command)?;
+    if of_poles.is_none() {
+        fit.covariance.view_mut((2 + n, 2 + n), (2 * n, 2 * n)).fill(f64::NAN);
+    }
+    Some(MotorFit { weighted_rms, ..fit })
+}
+
+/// Torque per angle of the motor alone, coupled through so many poles.
+fn weighted(data: &MotorData, poles: usize) -> Weighted {
+    let outputs = vec![output(data, (0..poles).collect(), 1.0)];
+    Weighted { omega: data.omega_rad_s.clone(), outputs }
+}
+
+/// Torque per angle of the motor, coupled through the poles of these indices, standard errors stretched by `stretch`.
+pub(super) fn output(data: &MotorData, coupled: Vec<usize>, stretch: f64) -> Output {
+    let torque = |r: &Response| data.torque_per_command / r.value;
+    let weight = |r: &Response| {
+        let relative = (r.std / r.value.norm()).hypot(RESPONSE_FLOOR);
+        1.0 / (torque(r).norm() * relative * stretch)
+    };
+    let values: Vec<Complex64> = data.response.iter().map(torque).collect();
+    Output::new(Basis::Torque(coupled), &values, data.response.iter().map(weight).collect())
 }
 
 impl MotorFit {
@@ -139,8 +185,36 @@ impl MotorFit {
         Self { delay_s: Some(delay_s), ..self }
     }
 
+    /// Of the last output of what was fitted together, coupled through the poles of these indices: `covariance` is that of all
+    /// unknowns, `late` the delay \[s\] and its slope by the last of them, if there is one.
+    pub(super) fn of_point(
+        point: &PolePoint,
+        covariance: &DMatrix<f64>,
+        modes: &[usize],
+        late: Option<[f64; 2]>,
+        torque_per_command: f64,
+    ) -> Option<Self> {
+        let (own, first) = (2 + modes.len(), *point.places().0.last()?);
+        let last = own + 2 * modes.len();
+        let mut by_unknowns = DMatrix::zeros(last + 1, covariance.nrows());
+        by_unknowns.view_mut((0, first), (own, own)).fill_with_identity();
+        for (i, &k) in modes.iter().enumerate() {
+            by_unknowns[(own + 2 * i, 2 * k)] = point.poles[k].omega_rad_s;
+            by_unknowns[(own + 2 * i + 1, 2 * k + 1)] = 1.0;
+        }
+        if let Some([_, slope]) = late {
+            by_unknowns[(last, first + own)] = slope;
+        }
+        let covariance = &by_unknowns * covariance * by_unknowns.transpose();
+        let std = covariance[(last, last)].max(0.0).sqrt();
+        let value = point.own_estimates.last()?.rows(0, own).into_owned();
+        let poles = modes.iter().map(|&k| point.poles[k]).collect();
+        let fit = Self::of_values(&value, &covariance, poles, torque_per_command);
+        Some(Self { delay_s: late.map(|[value, _]| Estimate { value, std }), ..fit })
+    }
+
     /// Of J, V and c_k, without a delay. The covariance is that of all, of the poles and of the delay.
-    pub(super) fn of_values(
+    fn of_values(
         value: &DVector<f64>,
         covariance: &DMatrix<f64>,
         poles: Vec<Pole>,
@@ -165,59 +239,6 @@ impl MotorFit {
             weighted_rms: 0.0,
             torque_per_command,
             covariance: covariance.clone(),
-        }
-    }
-
-    /// The same with the errors of the poles counted: `of_poles` is the covariance of ω_k \[rad/s\] and ζ_k of each. If
-    /// that is unknown, or the fit to `data` has no solution near the poles, so is that of the transfer function.
-    pub(crate) fn with_poles_of(&self, data: &MotorData, of_poles: Option<&DMatrix<f64>>) -> Self {
-        let counted = of_poles.and_then(|own| Some((own, self.slopes_by_poles(data)?)));
-        let (first, n) = (2 + self.poles.len(), 2 * self.poles.len());
-        let Some((of_poles, slopes)) = counted else {
-            let mut covariance = self.covariance.clone();
-            covariance.view_mut((first, first), (n, n)).fill(f64::NAN);
-            return Self { covariance, ..self.clone() };
-        };
-        self.with_errors_of(&slopes, &of_poles.clone().resize(n + 1, n + 1, 0.0))
-    }
-
-    /// Slopes of J, V and c_k by ω_k and ζ_k of each pole, and by the delay, which is not there.
-    fn slopes_by_poles(&self, data: &MotorData) -> Option<DMatrix<f64>> {
-        let beside = |k: usize, by: f64| {
-            let mut poles = self.poles.clone();
-            let pole = poles.get_mut(k / 2)?;
-            match k % 2 {
-                0 => pole.omega_rad_s *= 1.0 + by,
-                _ => pole.damping_ratio += by,
-            }
-            Some(solve(data, &poles)?.value)
-        };
-        let column = |k: usize| {
-            let size = if k.is_multiple_of(2) { self.poles[k / 2].omega_rad_s } else { 1.0 };
-            Some((beside(k, STEP)? - beside(k, -STEP)?) / (2.0 * STEP * size))
-        };
-        let n = 2 * self.poles.len();
-        let columns = (0..n).map(column).collect::<Option<Vec<_>>>()?;
-        Some(DMatrix::from_fn(2 + self.poles.len(), n + 1, |i, k| {
-            columns.get(k).map_or(0.0, |column| column[i])
-        }))
-    }
-
-    /// The same with the errors of poles and delay counted, whose covariance is `others`; `slopes` are those of J, V and
-    /// c_k by them.
-    fn with_errors_of(&self, slopes: &DMatrix<f64>, others: &DMatrix<f64>) -> Self {
-        let own = 2 + self.poles.len();
-        let known = self.covariance.view((0, 0), (own, own)).into_owned();
-        let covariance = joined(&known, slopes, others);
-        let counted =
-            |e: Estimate, i: usize| Estimate { std: covariance[(i, i)].max(0.0).sqrt(), ..e };
-        let coupling = self.coupling.iter().enumerate();
-        Self {
-            inertia: counted(self.inertia, 0),
-            viscous: counted(self.viscous, 1),
-            coupling: coupling.map(|(k, c)| counted(*c, 2 + k)).collect(),
-            covariance,
-            ..self.clone()
         }
     }
 
@@ -264,177 +285,4 @@ fn transfer_function(
     });
     let num = multiply(&[torque_per_command], &shared);
     TransferFunction { num, den: add(&rigid, &coupled) }.monic()
-}
-
-/// J, V and c_k at a choice of poles.
-pub(super) struct Solution {
-    pub(super) value: DVector<f64>,
-    covariance: DMatrix<f64>,
-    /// Residuals in their deviations.
-    pub(super) left: DVector<f64>,
-}
-
-fn coupling_shape(pole: &Pole, omega: f64) -> Complex64 {
-    1.0 - pole.omega_rad_s * pole.omega_rad_s / pole.denominator(omega)
-}
-
-/// The equation in its unknowns J, V and c_k: two rows a frequency, real part first.
-pub(super) struct ResponseRows {
-    pub(super) a: DMatrix<f64>,
-    pub(super) b: DVector<f64>,
-    /// One over the standard error of the torque per angle, of each frequency.
-    pub(super) weights: Vec<f64>,
-}
-
-impl ResponseRows {
-    /// Responses are trusted to the share `floor` of their size at best. `None` where there are too few.
-    pub(super) fn new(data: &MotorData, poles: &[Pole], floor: f64) -> Option<Self> {
-        Self::of_shapes(data, poles.len(), floor, |k, w| coupling_shape(&poles[k], w))
-    }
-
-    /// The same with the torque per angle and c_k of each of `count` poles as `shape` has it.
-    pub(super) fn of_shapes(
-        data: &MotorData,
-        count: usize,
-        floor: f64,
-        shape: impl Fn(usize, f64) -> Complex64,
-    ) -> Option<Self> {
-        let (m, p) = (data.response.len(), 2 + count);
-        if 2 * m < p + 2 {
-            return None;
-        }
-        let mut a = DMatrix::zeros(2 * m, p);
-        let mut b = DVector::zeros(2 * m);
-        let mut weights = Vec::with_capacity(m);
-        for (i, (&w, r)) in data.omega_rad_s.iter().zip(&data.response).enumerate() {
-            let inverse = data.torque_per_command / r.value;
-            let relative = (r.std / r.value.norm()).hypot(floor);
-            let weight = 1.0 / (inverse.norm() * relative);
-            let s = Complex64::new(0.0, w);
-            let columns = [s * s, s].into_iter().chain((0..count).map(|k| shape(k, w)));
-            for (k, z) in columns.enumerate() {
-                (a[(2 * i, k)], a[(2 * i + 1, k)]) = (weight * z.re, weight * z.im);
-            }
-            (b[2 * i], b[2 * i + 1]) = (weight * inverse.re, weight * inverse.im);
-            weights.push(weight);
-        }
-        let sound = a.iter().chain(b.iter()).all(|v| v.is_finite());
-        sound.then_some(Self { a, b, weights })
-    }
-
-    /// Least squares, and (AᵀA)⁻¹.
-    pub(super) fn solved(&self) -> Option<(DVector<f64>, DMatrix<f64>)> {
-        least_squares(&self.a, &self.b)
-    }
-}
-
-/// Least squares of `a·x = b`, and (aᵀa)⁻¹. The columns are brought to one size: c_k and J differ by orders.
-pub(super) fn least_squares(
-    a: &DMatrix<f64>,
-    b: &DVector<f64>,
-) -> Option<(DVector<f64>, DMatrix<f64>)> {
-    let sizes = DVector::from_fn(a.ncols(), |k, _| match a.column(k).norm() {
-        0.0 => 1.0,
-        size => size,
-    });
-    let mut scaled = a.clone();
-    for (mut column, size) in scaled.column_iter_mut().zip(&sizes) {
-        column /= *size;
-    }
-    if scaled.iter().chain(b.iter()).any(|v| !v.is_finite()) {
-        return None;
-    }
-    let normal = scaled.tr_mul(&scaled);
-    let value = scaled.svd(true, true).solve(b, 1e-13).ok()?;
-    let mut covariance = normal.pseudo_inverse(1e-15).ok()?;
-    for (j, mut column) in covariance.column_iter_mut().enumerate() {
-        for (i, v) in column.iter_mut().enumerate() {
-            *v /= sizes[i] * sizes[j];
-        }
-    }
-    Some((value.component_div(&sizes), covariance))
-}
-
-impl Solution {
-    fn cost(&self) -> f64 {
-        self.left.norm_squared()
-    }
-
-    /// Root mean square of the residuals, the unknowns counted and `further` ones that were fitted.
-    pub(super) fn weighted_rms(&self, further: usize) -> f64 {
-        let free = self.left.len().saturating_sub(self.value.len() + further).max(1) as f64;
-        (self.cost() / free).sqrt()
-    }
-}
-
-pub(super) fn solve(data: &MotorData, poles: &[Pole]) -> Option<Solution> {
-    let rows = ResponseRows::new(data, poles, RESPONSE_FLOOR)?;
-    let (value, covariance) = rows.solved()?;
-    let left = &rows.b - &rows.a * &value;
-    Some(Solution { value, covariance, left })
-}
-
-/// The one pole that explains the response best, refined on ever finer grids.
-fn scan(data: &MotorData) -> Option<(Pole, Solution)> {
-    let mut best: Option<(Pole, Solution)> = None;
-    let mut consider = |pole: Pole| {
-        if let Some(s) = solve(data, &[pole])
-            && best.as_ref().is_none_or(|(_, b)| s.cost() < b.cost())
-        {
-            best = Some((pole, s));
-        }
-    };
-    for omega_rad_s in trial_frequencies(&data.omega_rad_s) {
-        for damping_ratio in TRIAL_DAMPING {
-            consider(Pole { omega_rad_s, damping_ratio });
-        }
-    }
-    let (mut by_omega, mut by_damping) = (0.02_f64, 2.0_f64);
-    for _ in 0..REFINEMENTS {
-        let at = best.as_ref()?.0;
-        for i in -2..=2 {
-            for k in -2..=2 {
-                let pole = Pole {
-                    omega_rad_s: at.omega_rad_s * (1.0 + by_omega * 0.5 * f64::from(i)),
-                    damping_ratio: at.damping_ratio * by_damping.powf(0.5 * f64::from(k)),
-                };
-                if let Some(s) = solve(data, &[pole])
-                    && best.as_ref().is_none_or(|(_, b)| s.cost() < b.cost())
-                {
-                    best = Some((pole, s));
-                }
-            }
-        }
-        by_omega *= 0.5;
-        by_damping = by_damping.sqrt();
-    }
-    best
-}
-
-fn finish(data: &MotorData, poles: &[Pole], poles_given: bool, s: &Solution) -> MotorFit {
-    // A pole that was fitted has two numbers.
-    let fitted = if poles_given { 0 } else { 2 * poles.len() };
-    let weighted_rms = s.weighted_rms(fitted);
-    let known = &s.covariance * part_error(weighted_rms).powi(2);
-    let all = known.nrows() + 2 * poles.len() + 1;
-    let covariance = known.resize(all, all, 0.0);
-    let fit = MotorFit::of_values(&s.value, &covariance, poles.to_vec(), data.torque_per_command);
-    MotorFit { poles_given, weighted_rms, ..fit }
-}
-
-/// Covariance of ω \[rad/s\] and ζ of the one pole that was fitted; `None` if the response does not tell them.
-fn pole_covariance(data: &MotorData, pole: Pole, weighted_rms: f64) -> Option<DMatrix<f64>> {
-    let left = |by_omega: f64, by_damping: f64| {
-        let pole = Pole {
-            omega_rad_s: pole.omega_rad_s * (1.0 + by_omega),
-            damping_ratio: pole.damping_ratio + by_damping,
-        };
-        Some(solve(data, &[pole])?.left)
-    };
-    let by_omega = (left(STEP, 0.0)? - left(-STEP, 0.0)?) / (2.0 * STEP * pole.omega_rad_s);
-    let by_damping = (left(0.0, STEP)? - left(0.0, -STEP)?) / (2.0 * STEP);
-    let jacobian = DMatrix::from_columns(&[by_omega, by_damping]);
-    let Inverse { matrix, lost } = inverted(&jacobian.tr_mul(&jacobian));
-    let told = lost.iter().all(|lost| !lost) && matrix.iter().all(|v| v.is_finite());
-    told.then(|| matrix * part_error(weighted_rms).powi(2))
 }

@@ -197,6 +197,25 @@ impl PolePoint {
         (places, next)
     }
 
+    /// The same of the poles, known from elsewhere with the covariance `of_poles`, and of the estimates of one output, whose
+    /// squared standard errors are stretched by `stretch`.
+    pub(super) fn covariance_with(
+        &self,
+        output: usize,
+        of_poles: &DMatrix<f64>,
+        stretch: f64,
+    ) -> DMatrix<f64> {
+        let own = &self.own[output];
+        let (poles, estimates) = (of_poles.nrows(), own.across.nrows());
+        let slopes = -own.factor.solve(&own.across);
+        let mut by_both = DMatrix::identity(poles + estimates, poles + estimates);
+        by_both.view_mut((poles, 0), (estimates, poles)).copy_from(&slopes);
+        let mut known = own.factor.inverse() * stretch;
+        known = known.insert_rows(0, poles, 0.0).insert_columns(0, poles, 0.0);
+        known.view_mut((0, 0), (poles, poles)).copy_from(of_poles);
+        &by_both * known * by_both.transpose()
+    }
+
     /// Covariance of ln ω_k (and ζ_k), pole by pole, and then of each output's own estimates, where each response
     /// has the standard error it claims.
     pub(super) fn covariance(&self) -> Option<DMatrix<f64>> {
