@@ -2,9 +2,6 @@
 
 use std::f64::consts::PI;
 
-use levenberg_marquardt::{LeastSquaresProblem, LevenbergMarquardt};
-use nalgebra::storage::Owned;
-use nalgebra::{Matrix2x1, U1, U2, Vector1, Vector2};
 use num_complex::Complex64;
 
 use crate::identify::estimate::Estimate;
@@ -15,6 +12,9 @@ use crate::identify::prepare::run_analysis::RunKind;
 use crate::identify::prepare::run_phasors::RunPhasors;
 use crate::identify::thresholds::TRIPLE_FREQUENCY;
 use crate::spectrum::Phasor;
+
+/// Most steps, and halvings of one.
+const STEPS: usize = 50;
 
 /// Coulomb friction from one pair of runs, at ω0 and at 3ω0.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -31,8 +31,6 @@ pub struct PairEstimate {
     pub complex_command: Complex64,
     /// Cost (29) at its minimum \[1\].
     pub cost: f64,
-    /// Number of evaluations that the minimisation took.
-    pub evaluations: usize,
 }
 
 /// Result of the third-harmonic method of the 1989 report.
@@ -72,8 +70,8 @@ pub struct ThirdHarmonic {
 ///
 /// # Differences from the source
 /// The friction term of the third harmonic has the phase 3φ (errata of (27)), so that the result does not
-/// depend on the time origin. The minimum is found by the Levenberg-Marquardt method from the linear
-/// solution, instead of a direct search.
+/// depend on the time origin. The minimum is found by the Gauss-Newton method from the linear solution,
+/// instead of a direct search.
 pub fn pair_estimate(
     run: usize,
     triple_run: usize,
@@ -93,9 +91,7 @@ pub fn pair_estimate(
     if !(linear > 0.0 && linear.is_finite()) {
         return None;
     }
-    let problem = Cost { alpha, beta, log_c: Vector1::new(linear.ln()) };
-    let (solved, report) = LevenbergMarquardt::new().minimize(problem);
-    let value = solved.log_c[0].exp();
+    let (value, cost) = least_cost(alpha, beta, linear);
     // First order in the phasors; half of a complex error's power lies along a real estimate.
     let gain = 1.0 / (f3 * (1.0 - beta));
     let variance = gain.norm_sqr()
@@ -109,8 +105,7 @@ pub fn pair_estimate(
         omega_rad_s: low.omega_rad_s,
         coulomb_command: Estimate { value, std: variance.sqrt() },
         complex_command,
-        cost: 2.0 * report.objective_function,
-        evaluations: report.number_of_evaluations,
+        cost,
     })
 }
 
@@ -137,42 +132,24 @@ pub fn mean_estimate(
     Some((Estimate { value, std: (spread / n.sqrt()).hypot(bias * value) }, spread))
 }
 
-/// (29) as two residuals, `Re` and `Im` of `ln(c′/c)`, in the logarithm of c.
-struct Cost {
-    alpha: Complex64,
-    beta: Complex64,
-    log_c: Vector1<f64>,
-}
-
-impl Cost {
-    fn derived(&self) -> (f64, Complex64) {
-        let c = self.log_c[0].exp();
-        (c, self.alpha + self.beta * c)
-    }
-}
-
-impl LeastSquaresProblem<f64, U2, U1> for Cost {
-    type ResidualStorage = Owned<f64, U2>;
-    type JacobianStorage = Owned<f64, U2, U1>;
-    type ParameterStorage = Owned<f64, U1>;
-
-    fn set_params(&mut self, x: &Vector1<f64>) {
-        self.log_c = *x;
-    }
-    fn params(&self) -> Vector1<f64> {
-        self.log_c
-    }
-    fn residuals(&self) -> Option<Vector2<f64>> {
-        let (c, derived) = self.derived();
-        let r = (derived / c).ln();
-        (r.re.is_finite() && r.im.is_finite()).then(|| Vector2::new(r.re, r.im))
-    }
-    fn jacobian(&self) -> Option<Matrix2x1<f64>> {
-        let (c, derived) = self.derived();
+/// c with the least cost (29), `|ln((α + β·c)/c)|²`, and that cost: Gauss-Newton in ln c, with steps that are halved until
+/// they lower it.
+fn least_cost(alpha: Complex64, beta: Complex64, start: f64) -> (f64, f64) {
+    let left = |c: f64| ((alpha + beta * c) / c).ln();
+    let mut best = (start, left(start));
+    for _ in 0..STEPS {
+        let (c, residual) = best;
         // d ln(c′/c)/d ln c = β·c/c′ − 1.
-        let d = self.beta * c / derived - 1.0;
-        Some(Matrix2x1::new(d.re, d.im))
+        let slope = beta * c / (alpha + beta * c) - 1.0;
+        let step = -(slope.conj() * residual).re / slope.norm_sqr();
+        let shares = std::iter::successors(Some(1.0), |share| Some(0.5 * share)).take(STEPS);
+        let mut tried = shares.map(|share| c * (share * step).exp()).map(|c| (c, left(c)));
+        let Some(better) = tried.find(|t| t.1.norm_sqr() < residual.norm_sqr()) else {
+            break;
+        };
+        best = better;
     }
+    (best.0, best.1.norm_sqr())
 }
 
 /// Every pair of runs at ω0 and 3ω0; each run meets the triple nearest to it in amplitude.
