@@ -29,3 +29,16 @@ fn no_file_uses_a_layer_above_its_own() {
         }
     }
 }
+
+/// `cargo test` without arguments stops at the command: its list of tests names the recipe that goes on, which README and
+/// CONTRIBUTING name too.
+#[test]
+fn tests_of_all_crates_run_with_cargo_xtask_test() {
+    let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("../..");
+    let recipes = fs::read_to_string(root.join("xtask/src/main.rs")).unwrap();
+    assert!(recipes.contains("name: \"test\""));
+    for page in ["README.md", "CONTRIBUTING.md"] {
+        let text = fs::read_to_string(root.join(page)).unwrap();
+        assert!(text.contains("`cargo xtask test`"), "{page}");
+    }
+}
