@@ -18,6 +18,9 @@ thresholds! {
         /// A hypothesis (a straight line, a white residual) is rejected if chance alone would give
         /// the measured result with a probability below this.
         REJECTED_CHANCE: f64 = 0.01, "1", Convention;
+        /// An estimate whose relative standard error is above this is refused: not even its order
+        /// of magnitude is known.
+        REFUSED_ERROR: f64 = 1.0, "1", Convention;
         /// A term is worth its parameter if it reduces the residual to this share or less. A term
         /// that is significant only by chance reduces the residual hardly at all.
         RESIDUAL_FALLS_TO: f64 = 0.9, "1", Convention;

@@ -25,8 +25,5 @@ thresholds! {
         OFFSET_REPORTED: f64 = 0.01, "1", Convention;
         /// A warning reports an estimate whose relative standard error is above this.
         UNCERTAIN_ERROR: f64 = 0.2, "1", Convention;
-        /// An estimate whose relative standard error is above this is refused: not even its order
-        /// of magnitude is known.
-        REFUSED_ERROR: f64 = 1.0, "1", Convention;
     }
 }

@@ -5,7 +5,8 @@ use crate::identify::estimate::Estimate;
 use crate::identify::findings::{EstimateFinding, EstimateUnits, Finding, JudgedParameter};
 use crate::identify::judge::drive_table;
 use crate::identify::judge::evidence::{Chosen, Evidence};
-use crate::identify::judge::thresholds::{REFUSED_ERROR, UNCERTAIN_ERROR};
+use crate::identify::judge::thresholds::UNCERTAIN_ERROR;
+use crate::identify::thresholds::REFUSED_ERROR;
 
 /// Takes back what the data do not support; the line is taken where it is known and the model of the table is not, unless that is
 /// the arm of the output-error method.

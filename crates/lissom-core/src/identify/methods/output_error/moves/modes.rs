@@ -9,7 +9,7 @@ use crate::identify::methods::output_error::thresholds::{
     PROBE_STEPS, REPETITIONS_MOST, RESIDUAL_ABOVE_NOISE,
 };
 use crate::identify::responses::thresholds::MODE_DAMPING_MOST;
-use crate::identify::thresholds::PRESENT;
+use crate::identify::thresholds::{PRESENT, REFUSED_ERROR};
 use crate::replay::{Body, MOST_MODES, ModalArm, Oscillator, Parameter, free_parameters};
 
 /// Adds modes above the others, up to as many as tips, while each makes the fit better. An axis without tips keeps the mode that
@@ -160,7 +160,7 @@ pub(crate) fn lighten(fitting: &Fitting<'_>, fit: &mut ArmFit, report: &mut Repo
         light.body.arm.modes[mode].stiffness_nm_per_rad = 0.0;
         light.free.retain(|p| *p != Parameter::Stiffness(mode));
         fitting.search(&mut light, report);
-        if overdamped || known > 1.0 || fitting.is_better(&light, fit) {
+        if overdamped || known > REFUSED_ERROR || fitting.is_better(&light, fit) {
             *fit = light;
         }
     }
