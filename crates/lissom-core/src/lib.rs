@@ -33,6 +33,7 @@ pub mod lti;
 mod number;
 pub mod plan;
 pub mod record;
+mod registers;
 pub mod replay;
 pub mod rig;
 pub mod spectrum;

@@ -9,6 +9,7 @@ use super::lanes::{LANES, Lanes, Pack};
 use super::rates::Rates;
 use super::series::{Ramp, Terms, input, orders};
 use super::transition::Transition;
+use crate::registers::widest;
 
 /// Tangents of the unknowns in their order: the parameters, then the initial state.
 #[derive(Debug, Clone)]
@@ -16,14 +17,13 @@ pub(super) struct Tangents<const D: usize> {
     packs: Vec<Pack<D>>,
     /// Where they go in a step.
     next: Vec<Pack<D>>,
-    arch: pulp::Arch,
 }
 
 impl<const D: usize> Tangents<D> {
     /// All zero, of `unknowns` unknowns.
     pub(super) fn new(unknowns: usize) -> Self {
         let packs = vec![[[0.0; LANES]; D]; unknowns.div_ceil(LANES)];
-        Self { next: packs.clone(), packs, arch: pulp::Arch::new() }
+        Self { next: packs.clone(), packs }
     }
 
     /// Derivative of one state by one unknown.
@@ -91,20 +91,19 @@ impl<const D: usize> Tangents<D> {
     /// `Σ c_i·∂x_i/∂u` of every unknown, into `row`, whose length is a multiple of [`LANES`]: what follows
     /// the unknowns among the last of these becomes zero.
     pub(super) fn seen(&self, c: &[f64; D], row: &mut [f64]) {
-        self.arch.dispatch(Seen { packs: &self.packs, c, row });
+        widest(|| seen(&self.packs, c, row));
     }
 
     /// Over a whole piece from the state `x` under the net torque `from`, which changes by `change`.
     /// What torques add that are parameters themselves is left out.
     pub(super) fn over(&mut self, piece: &Transition<D>, x: &[f64; D], from: f64, change: f64) {
-        let next = &mut self.next;
-        self.arch.dispatch(Over { packs: &self.packs, next, piece, x, from, change });
+        widest(|| over(&self.packs, &mut self.next, piece, (x, from, change)));
         std::mem::swap(&mut self.packs, &mut self.next);
     }
 
     /// The same along a series, after `time_s`.
     pub(super) fn along(&mut self, rates: &Rates<D>, terms: &Terms<D>, net: Ramp, time_s: f64) {
-        self.arch.dispatch(Along { packs: &mut self.packs, rates, terms, net, time_s });
+        widest(|| along(&mut self.packs, rates, terms, net, time_s));
     }
 
     /// Its numbers, [`LANES`] unknowns at a time.
@@ -113,96 +112,73 @@ impl<const D: usize> Tangents<D> {
     }
 }
 
-/// For whatever vectors the machine has: they change no result, as nothing is contracted or
-/// reordered.
-struct Over<'a, const D: usize> {
-    packs: &'a [Pack<D>],
-    next: &'a mut [Pack<D>],
-    piece: &'a Transition<D>,
-    x: &'a [f64; D],
-    from: f64,
-    change: f64,
-}
-
-impl<const D: usize> pulp::WithSimd for Over<'_, D> {
-    type Output = ();
-    #[inline(always)]
-    fn with_simd<S: pulp::Simd>(self, _: S) {
-        for (k, (old, next)) in self.packs.iter().zip(self.next).enumerate() {
-            let by = self.piece.by_parameter.get(k);
-            for (i, new) in next.iter_mut().enumerate() {
-                let mut sum = [0.0; LANES];
-                for (column, old) in self.piece.own.phi.iter().zip(old) {
-                    add(&mut sum, column[i], old);
-                }
-                if let Some(by) = by {
-                    add_products(&mut sum, self.x, &by.phi[i]);
-                    add(&mut sum, self.from, &by.push[i]);
-                    add(&mut sum, self.change, &by.ramp[i]);
-                }
-                *new = sum;
-            }
-        }
-    }
-}
-
-struct Seen<'a, const D: usize> {
-    packs: &'a [Pack<D>],
-    c: &'a [f64; D],
-    row: &'a mut [f64],
-}
-
-impl<const D: usize> pulp::WithSimd for Seen<'_, D> {
-    type Output = ();
-    #[inline(always)]
-    fn with_simd<S: pulp::Simd>(self, _: S) {
-        // Speeds are seen by no angle.
-        let mut counts = [(0.0, 0); D];
-        let mut some = 0;
-        for (i, c) in self.c.iter().enumerate().filter(|(_, c)| **c != 0.0) {
-            counts[some] = (*c, i);
-            some += 1;
-        }
-        for (pack, row) in self.packs.iter().zip(self.row.as_chunks_mut::<LANES>().0) {
+#[inline(always)]
+fn over<const D: usize>(
+    packs: &[Pack<D>],
+    next: &mut [Pack<D>],
+    piece: &Transition<D>,
+    (x, from, change): (&[f64; D], f64, f64),
+) {
+    for (k, (old, next)) in packs.iter().zip(next).enumerate() {
+        let by = piece.by_parameter.get(k);
+        for (i, new) in next.iter_mut().enumerate() {
             let mut sum = [0.0; LANES];
-            for (c, i) in &counts[..some] {
-                add(&mut sum, *c, &pack[*i]);
+            for (column, old) in piece.own.phi.iter().zip(old) {
+                add(&mut sum, column[i], old);
             }
-            *row = sum;
+            if let Some(by) = by {
+                add_products(&mut sum, x, &by.phi[i]);
+                add(&mut sum, from, &by.push[i]);
+                add(&mut sum, change, &by.ramp[i]);
+            }
+            *new = sum;
         }
     }
 }
 
-struct Along<'a, const D: usize> {
-    packs: &'a mut [Pack<D>],
-    rates: &'a Rates<D>,
-    terms: &'a Terms<D>,
+#[inline(always)]
+fn seen<const D: usize>(packs: &[Pack<D>], c: &[f64; D], row: &mut [f64]) {
+    // Speeds are seen by no angle.
+    let mut counts = [(0.0, 0); D];
+    let mut some = 0;
+    for (i, c) in c.iter().enumerate().filter(|(_, c)| **c != 0.0) {
+        counts[some] = (*c, i);
+        some += 1;
+    }
+    for (pack, row) in packs.iter().zip(row.as_chunks_mut::<LANES>().0) {
+        let mut sum = [0.0; LANES];
+        for (c, i) in &counts[..some] {
+            add(&mut sum, *c, &pack[*i]);
+        }
+        *row = sum;
+    }
+}
+
+#[inline(always)]
+fn along<const D: usize>(
+    packs: &mut [Pack<D>],
+    rates: &Rates<D>,
+    terms: &Terms<D>,
     net: Ramp,
     time_s: f64,
-}
-
-impl<const D: usize> pulp::WithSimd for Along<'_, D> {
-    type Output = ();
-    #[inline(always)]
-    fn with_simd<S: pulp::Simd>(self, _: S) {
-        let most = orders(self.rates, self.time_s);
-        for (k, pack) in self.packs.iter_mut().enumerate() {
-            let by = self.rates.by_parameter.get(k);
-            let (mut term, mut power) = (*pack, 1.0);
-            for n in 0..most {
-                let old = term;
-                power *= self.time_s;
-                let share = 1.0 / (n as f64 + 1.0);
-                for (i, next) in term.iter_mut().enumerate() {
-                    let mut sum = [0.0; LANES];
-                    add_products(&mut sum, &self.rates.a[i], &old);
-                    if let Some((a, b)) = by {
-                        add_products(&mut sum, &self.terms[n], &a[i]);
-                        add(&mut sum, input(n, self.net), &b[i]);
-                    }
-                    *next = sum.map(|v| v * share);
-                    add(&mut pack[i], power, next);
+) {
+    let most = orders(rates, time_s);
+    for (k, pack) in packs.iter_mut().enumerate() {
+        let by = rates.by_parameter.get(k);
+        let (mut term, mut power) = (*pack, 1.0);
+        for n in 0..most {
+            let old = term;
+            power *= time_s;
+            let share = 1.0 / (n as f64 + 1.0);
+            for (i, next) in term.iter_mut().enumerate() {
+                let mut sum = [0.0; LANES];
+                add_products(&mut sum, &rates.a[i], &old);
+                if let Some((a, b)) = by {
+                    add_products(&mut sum, &terms[n], &a[i]);
+                    add(&mut sum, input(n, net), &b[i]);
                 }
+                *next = sum.map(|v| v * share);
+                add(&mut pack[i], power, next);
             }
         }
     }

@@ -1,6 +1,7 @@
 //! Least squares of a signal on its mean, a line and harmonics, with sums by tables.
 #![expect(clippy::inline_always, reason = "compiled for wide registers as one")]
 
+use crate::registers::widest;
 use nalgebra::{DMatrix, DVector};
 use num_complex::Complex64;
 
@@ -52,7 +53,7 @@ impl HarmonicFit {
 
     /// The coefficient of each column.
     pub(super) fn solution(&self, samples: &[f64]) -> DVector<f64> {
-        let right = pulp::Arch::new().dispatch(RightSide { fit: self, samples });
+        let right = widest(|| self.right_side(samples));
         &self.inverse * right
     }
 
@@ -63,7 +64,7 @@ impl HarmonicFit {
         solution: &DVector<f64>,
         period: Option<usize>,
     ) -> Residual {
-        pulp::Arch::new().dispatch(Left { fit: self, samples, solution, period })
+        widest(|| self.left(samples, solution, period))
     }
 
     fn columns(&self) -> usize {
@@ -117,39 +118,21 @@ impl HarmonicFit {
     }
 }
 
-/// Σ a·x over all samples.
-struct RightSide<'a> {
-    fit: &'a HarmonicFit,
-    samples: &'a [f64],
-}
-
-impl pulp::WithSimd for RightSide<'_> {
-    type Output = DVector<f64>;
-
+impl HarmonicFit {
+    /// Σ a·x over all samples.
     #[inline(always)]
-    fn with_simd<S: pulp::Simd>(self, _: S) -> DVector<f64> {
-        let mut sums = DVector::zeros(self.fit.columns());
-        for (block, x) in self.samples.chunks(BLOCK).enumerate() {
-            self.fit.add_products(block * BLOCK, x, sums.as_mut_slice());
+    fn right_side(&self, samples: &[f64]) -> DVector<f64> {
+        let mut sums = DVector::zeros(self.columns());
+        for (block, x) in samples.chunks(BLOCK).enumerate() {
+            self.add_products(block * BLOCK, x, sums.as_mut_slice());
         }
         sums
     }
-}
 
-struct Left<'a> {
-    fit: &'a HarmonicFit,
-    samples: &'a [f64],
-    solution: &'a DVector<f64>,
-    period: Option<usize>,
-}
-
-impl pulp::WithSimd for Left<'_> {
-    type Output = Residual;
-
+    /// See [`Self::residual`].
     #[inline(always)]
-    fn with_simd<S: pulp::Simd>(self, _: S) -> Residual {
-        let Self { fit, samples, solution, period } = self;
-        let columns = fit.columns();
+    fn left(&self, samples: &[f64], solution: &DVector<f64>, period: Option<usize>) -> Residual {
+        let columns = self.columns();
         let mut found =
             Residual { power: 0.0, middle: DMatrix::zeros(columns, columns), stretches: 0 };
         let mut scores: DVector<f64> = DVector::zeros(columns);
@@ -159,10 +142,10 @@ impl pulp::WithSimd for Left<'_> {
             scores.fill(0.0);
             for (block, x) in stretch.chunks(BLOCK).enumerate() {
                 let (from, left) = (number * whole + block * BLOCK, &mut left[..x.len()]);
-                fit.leave(from, x, solution.as_slice(), left);
+                self.leave(from, x, solution.as_slice(), left);
                 found.power += dot(left, left);
                 if period.is_some() {
-                    fit.add_products(from, left, scores.as_mut_slice());
+                    self.add_products(from, left, scores.as_mut_slice());
                 }
             }
             if period.is_some() {
@@ -266,7 +249,7 @@ mod tests {
 
             let Some(fit) = HarmonicFit::new(n, phase_step, count) else { continue };
             let x: Vec<f64> = (0..n).map(|k| (k * k % 17) as f64 - 5.0).collect();
-            let right = pulp::Arch::new().dispatch(RightSide { fit: &fit, samples: &x });
+            let right = widest(|| fit.right_side(&x));
             let expected = (0..n).map(|k| row(k) * x[k]).sum::<DVector<f64>>();
             assert!((right - &expected).amax() < 1e-11 * n as f64, "{n} {phase_step} {count}");
 

@@ -1,13 +1,12 @@
 //! Inverse dynamics: the torque that an arm's parameters give for a logged motion, compared with the logged torque.
 
+use crate::registers::widest;
 use rayon::prelude::*;
 
 use crate::identify::validation::cause::{Cause, Causes};
 use crate::identify::validation::thresholds::{AS_EXPECTED, STRETCH_LEAST};
 use crate::identify::validation::torque_arm::TorqueArm;
-use crate::identify::validation::torque_rows::{
-    Coupling, Predictor, Row, RowsOfRun, RunRows, SumsOfRun,
-};
+use crate::identify::validation::torque_rows::{Coupling, Predictor, Row, RunRows};
 use crate::record::Campaign;
 
 /// Prediction of the torque of a log.
@@ -132,7 +131,7 @@ pub(in crate::identify) fn torque_error(
     zeros: &[Vec<f64>],
 ) -> Option<(f64, f64)> {
     let predictor = Predictor::new(found, campaign, zeros, None)?;
-    let sums = |run: usize| pulp::Arch::new().dispatch(SumsOfRun(&predictor, run));
+    let sums = |run: usize| widest(|| predictor.sums(run));
     let sums = predictor.of_runs(sums);
     let [left, power] = sums.iter().fold([0.0; 2], |[a, b], [c, d]| [a + c, b + d]);
     (power > 0.0).then(|| (predictor.window_s, (left / power).sqrt()))
@@ -189,7 +188,7 @@ impl RunRows {
 
 /// All that the rows of a campaign show.
 fn predicted(predictor: &Predictor<'_>) -> Option<TorquePrediction> {
-    let rows = |run: usize| pulp::Arch::new().dispatch(RowsOfRun(predictor, run));
+    let rows = |run: usize| widest(|| predictor.rows(run));
     let rows: Vec<RunRows> = predictor.of_runs(rows);
     let counted = || rows.iter().flat_map(|r| &r.rows).filter(|row| row.counts);
     let (mut left, mut power, mut number) = ([0.0; 2], [0.0; 2], 0_usize);

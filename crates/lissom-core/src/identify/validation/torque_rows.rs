@@ -118,30 +118,6 @@ pub(super) struct Predictor<'a> {
     masks: Vec<Masks>,
 }
 
-/// The rows of one run, compiled for the widest registers that there are.
-pub(super) struct RowsOfRun<'a>(pub(super) &'a Predictor<'a>, pub(super) usize);
-
-impl pulp::WithSimd for RowsOfRun<'_> {
-    type Output = Option<RunRows>;
-
-    #[inline(always)]
-    fn with_simd<S: pulp::Simd>(self, _: S) -> Option<RunRows> {
-        self.0.rows(self.1)
-    }
-}
-
-/// Their sums alone.
-pub(super) struct SumsOfRun<'a>(pub(super) &'a Predictor<'a>, pub(super) usize);
-
-impl pulp::WithSimd for SumsOfRun<'_> {
-    type Output = Option<[f64; 2]>;
-
-    #[inline(always)]
-    fn with_simd<S: pulp::Simd>(self, _: S) -> Option<[f64; 2]> {
-        self.0.sums(self.1)
-    }
-}
-
 impl<'a> Predictor<'a> {
     /// With windows of a length, or of one that is chosen; `None` where the arm has modes that the tips do not show.
     pub(super) fn new(
@@ -172,7 +148,7 @@ impl<'a> Predictor<'a> {
     /// Squares of the residual and of the logged torque, summed over the rows of a run that count; `None` for a run that is
     /// shorter than the window.
     #[inline(always)]
-    fn sums(&self, index: usize) -> Option<[f64; 2]> {
+    pub(super) fn sums(&self, index: usize) -> Option<[f64; 2]> {
         let run = WindowedRun::new(self, index)?;
         let mut sums = [0.0; 2];
         for k in 0..run.windows() {
@@ -187,7 +163,7 @@ impl<'a> Predictor<'a> {
 
     /// `None` for a run that is shorter than the window.
     #[inline(always)]
-    fn rows(&self, index: usize) -> Option<RunRows> {
+    pub(super) fn rows(&self, index: usize) -> Option<RunRows> {
         let windowed = WindowedRun::new(self, index)?;
         let WindowedRun { run, kernel, speed, .. } = &windowed;
         let constant = self.campaign.channels.command.torque_per_unit();

@@ -1,6 +1,7 @@
 //! Periods of the residual over the angle that stand out: candidates for ripples.
 #![expect(clippy::inline_always, reason = "compiled for wide registers as one")]
 
+use crate::registers::widest;
 use std::f64::consts::TAU;
 
 use crate::identify::methods::friction_law::rows::Sampled;
@@ -38,7 +39,7 @@ pub(super) fn strongest(
     let left: Vec<(f64, f64)> = left.collect();
     let thinned: Vec<_> = left.iter().copied().step_by((left.len() / ROWS).max(1)).collect();
     let first = least(sampled);
-    let powers = pulp::Arch::new().dispatch(Powers { left: &thinned, first, step, count });
+    let powers = widest(|| powers(&thinned, first, step, count));
     let (best, _) = powers.iter().enumerate().max_by(|a, b| a.1.total_cmp(b.1))?;
     // Between the steps, by a parabola through the largest and its neighbours.
     let at = |i: usize| powers.get(i).copied().unwrap_or(0.0);
@@ -59,42 +60,29 @@ pub(super) fn least(sampled: &Sampled<'_>) -> f64 {
     LEAST_PERIODS * PER_PERIOD * step(sampled)
 }
 
-/// |Σ residual·e^{jkθ}| at `count` frequencies k from `first` on, `step` apart.
-struct Powers<'a> {
-    /// Angles and residuals.
-    left: &'a [(f64, f64)],
-    first: f64,
-    step: f64,
-    count: usize,
-}
-
 /// Rows whose waves turn side by side.
 const LANES: usize = 16;
 
-impl pulp::WithSimd for Powers<'_> {
-    type Output = Vec<f64>;
-
-    #[inline(always)]
-    fn with_simd<S: pulp::Simd>(self, _: S) -> Vec<f64> {
-        let Self { left, first, step, count } = self;
-        let mut sums = vec![[0.0; 2]; count];
-        for rows in left.chunks(LANES) {
-            let [mut re, mut im, mut cos, mut sin] = [[0.0; LANES]; 4];
-            for (lane, (angle, residual)) in rows.iter().enumerate() {
-                let (s, c) = (first * angle).sin_cos();
-                (re[lane], im[lane]) = (residual * c, residual * s);
-                (sin[lane], cos[lane]) = (step * angle).sin_cos();
-            }
-            for [cosine, sine] in &mut sums {
-                *cosine += re.iter().sum::<f64>();
-                *sine += im.iter().sum::<f64>();
-                for lane in 0..LANES {
-                    let (a, b) = (re[lane], im[lane]);
-                    re[lane] = a * cos[lane] - b * sin[lane];
-                    im[lane] = a * sin[lane] + b * cos[lane];
-                }
+/// |Σ residual·e^{jkθ}| of angles and residuals at `count` frequencies k from `first` on, `step` apart.
+#[inline(always)]
+fn powers(left: &[(f64, f64)], first: f64, step: f64, count: usize) -> Vec<f64> {
+    let mut sums = vec![[0.0; 2]; count];
+    for rows in left.chunks(LANES) {
+        let [mut re, mut im, mut cos, mut sin] = [[0.0; LANES]; 4];
+        for (lane, (angle, residual)) in rows.iter().enumerate() {
+            let (s, c) = (first * angle).sin_cos();
+            (re[lane], im[lane]) = (residual * c, residual * s);
+            (sin[lane], cos[lane]) = (step * angle).sin_cos();
+        }
+        for [cosine, sine] in &mut sums {
+            *cosine += re.iter().sum::<f64>();
+            *sine += im.iter().sum::<f64>();
+            for lane in 0..LANES {
+                let (a, b) = (re[lane], im[lane]);
+                re[lane] = a * cos[lane] - b * sin[lane];
+                im[lane] = a * sin[lane] + b * cos[lane];
             }
         }
-        sums.into_iter().map(|[cosine, sine]| cosine.hypot(sine)).collect()
     }
+    sums.into_iter().map(|[cosine, sine]| cosine.hypot(sine)).collect()
 }

@@ -2,6 +2,7 @@
 
 #![expect(clippy::inline_always, reason = "compiled for wide registers as one")]
 
+use crate::registers::widest;
 use std::sync::{Arc, OnceLock};
 
 use nalgebra::DMatrix;
@@ -217,8 +218,7 @@ impl<'a> Sampled<'a> {
         let own = MotorColumns::of(self.campaign);
         self.equation.get_or_init(|| {
             self.in_parts(own.count() + 1, |run, firsts, values| {
-                let rows = EquationRows { sampled: self, own: &own, run, firsts, values };
-                pulp::Arch::new().dispatch(rows);
+                widest(|| self.fill_equation(&own, run, firsts, values));
             })
         })
     }
@@ -227,8 +227,7 @@ impl<'a> Sampled<'a> {
     pub(super) fn columns(&self, columns: &[Column], knots: &[f64]) -> ColumnTable {
         let own = MotorColumns::of(self.campaign);
         let values = self.in_parts(columns.len(), |run, firsts, values| {
-            let rows = ColumnRows { sampled: self, own: &own, run, firsts, columns, knots, values };
-            pulp::Arch::new().dispatch(rows);
+            widest(|| self.fill_columns((columns, knots), &own, run, firsts, values));
         });
         ColumnTable { count: columns.len(), values }
     }
@@ -237,8 +236,7 @@ impl<'a> Sampled<'a> {
     pub(super) fn power(&self) -> Option<f64> {
         let own = MotorColumns::of(self.campaign);
         let right = self.in_parts(1, |run, firsts, values| {
-            let rows = RightSides { sampled: self, own: &own, run, firsts, values };
-            pulp::Arch::new().dispatch(rows);
+            widest(|| self.fill_right_sides(&own, run, firsts, values));
         });
         let power = right.iter().map(|y| y * y).sum::<f64>();
         (!right.is_empty()).then(|| power / right.len() as f64)
@@ -340,22 +338,11 @@ impl Windows {
     }
 }
 
-/// Rows of the motor's equation in windows of one run, compiled for the widest registers that there are.
-struct EquationRows<'a> {
-    sampled: &'a Sampled<'a>,
-    own: &'a MotorColumns,
-    run: usize,
-    firsts: &'a [usize],
-    values: &'a mut [f64],
-}
-
-impl pulp::WithSimd for EquationRows<'_> {
-    type Output = ();
-
+impl Sampled<'_> {
+    /// Rows of the motor's equation in windows of one run.
     #[inline(always)]
-    fn with_simd<S: pulp::Simd>(self, _: S) {
-        let Self { sampled, own, run, firsts, values } = self;
-        let Some((equation, _)) = sampled.equation(own, run) else { return };
+    fn fill_equation(&self, own: &MotorColumns, run: usize, firsts: &[usize], values: &mut [f64]) {
+        let Some((equation, _)) = self.equation(own, run) else { return };
         let mut row = Vec::with_capacity(own.count() + 1);
         let rows = values.chunks_exact_mut(own.count() + 1);
         for (first, values) in firsts.iter().zip(rows) {
@@ -363,48 +350,33 @@ impl pulp::WithSimd for EquationRows<'_> {
             values.copy_from_slice(&row);
         }
     }
-}
 
-/// Their right sides alone.
-struct RightSides<'a> {
-    sampled: &'a Sampled<'a>,
-    own: &'a MotorColumns,
-    run: usize,
-    firsts: &'a [usize],
-    values: &'a mut [f64],
-}
-
-impl pulp::WithSimd for RightSides<'_> {
-    type Output = ();
-
+    /// Their right sides alone.
     #[inline(always)]
-    fn with_simd<S: pulp::Simd>(self, _: S) {
-        let Self { sampled, own, run, firsts, values } = self;
-        let Some((equation, _)) = sampled.equation(own, run) else { return };
+    fn fill_right_sides(
+        &self,
+        own: &MotorColumns,
+        run: usize,
+        firsts: &[usize],
+        values: &mut [f64],
+    ) {
+        let Some((equation, _)) = self.equation(own, run) else { return };
         for (first, value) in firsts.iter().zip(values) {
             *value = equation.right(*first);
         }
     }
-}
 
-/// Further columns in the same windows.
-struct ColumnRows<'a> {
-    sampled: &'a Sampled<'a>,
-    own: &'a MotorColumns,
-    run: usize,
-    firsts: &'a [usize],
-    columns: &'a [Column],
-    knots: &'a [f64],
-    values: &'a mut [f64],
-}
-
-impl pulp::WithSimd for ColumnRows<'_> {
-    type Output = ();
-
+    /// Further columns in the same windows.
     #[inline(always)]
-    fn with_simd<S: pulp::Simd>(self, _: S) {
-        let Self { sampled, own, run, firsts, columns, knots, values } = self;
-        let Some((equation, slipping)) = sampled.equation(own, run) else { return };
+    fn fill_columns(
+        &self,
+        (columns, knots): (&[Column], &[f64]),
+        own: &MotorColumns,
+        run: usize,
+        firsts: &[usize],
+        values: &mut [f64],
+    ) {
+        let Some((equation, slipping)) = self.equation(own, run) else { return };
         if columns.is_empty() {
             return;
         }

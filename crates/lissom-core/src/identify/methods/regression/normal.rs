@@ -1,5 +1,6 @@
 //! Least squares from sums by cluster, with a covariance that holds for coloured residuals.
 
+use crate::registers::widest;
 use nalgebra::{DMatrix, DVector};
 
 use crate::identify::methods::regression::cluster_covariance::{larger, of_few, sandwich};
@@ -32,25 +33,6 @@ pub(crate) struct Cluster {
 pub(crate) trait Rows {
     /// Makes `row` that of the window which begins at sample `k`: regressors first, right side last.
     fn fill(&self, k: usize, row: &mut Vec<f64>);
-}
-
-struct Adding<'a, I, R> {
-    cluster: &'a mut Cluster,
-    starts: I,
-    equation: &'a R,
-}
-
-impl<I: Iterator<Item = usize>, R: Rows> pulp::WithSimd for Adding<'_, I, R> {
-    type Output = ();
-
-    #[inline(always)]
-    fn with_simd<S: pulp::Simd>(self, _: S) {
-        let mut row = Vec::with_capacity(self.cluster.products.ncols());
-        for k in self.starts {
-            self.equation.fill(k, &mut row);
-            self.cluster.add(&row);
-        }
-    }
 }
 
 impl Cluster {
@@ -86,7 +68,7 @@ impl Cluster {
         noise: &DMatrix<f64>,
     ) {
         let before = self.rows;
-        pulp::Arch::new().dispatch(Adding { cluster: &mut *self, starts, equation });
+        widest(|| self.add_each(starts, equation));
         let added = (self.rows - before) as f64;
         self.noise.zip_apply(noise, |sum, of_row| *sum += of_row * added);
     }
@@ -103,6 +85,15 @@ impl Cluster {
         self.products += &other.products;
         self.noise += &other.noise;
         self.rows += other.rows;
+    }
+
+    #[inline(always)]
+    fn add_each(&mut self, starts: impl Iterator<Item = usize>, equation: &impl Rows) {
+        let mut row = Vec::with_capacity(self.products.ncols());
+        for k in starts {
+            equation.fill(k, &mut row);
+            self.add(&row);
+        }
     }
 
     /// Adds one row, regressors first, right side last.

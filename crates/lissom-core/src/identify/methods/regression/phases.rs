@@ -3,6 +3,7 @@
 use crate::identify::methods::regression::thresholds::{REST_SPEED, SURELY_REVERSED};
 use crate::identify::methods::regression::window::Window;
 use crate::identify::thresholds::TRAVEL_OVER_NOISE;
+use crate::registers::widest;
 
 /// Samples `from..to` in which the motor moves in the direction of `sign`.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -77,42 +78,31 @@ pub(super) fn phases_of(velocity_at: &[f64], window: &Window, least: f64) -> Vec
 
 /// `Σẇ·θ`, up to its unit the velocity, in every window that the samples hold.
 pub(super) fn velocities(motor: &[f64], window: &Window) -> Vec<f64> {
-    pulp::Arch::new().dispatch(Velocities { motor, window })
+    widest(|| side_by_side(motor, window))
 }
 
 /// Velocities found side by side.
 const LANES: usize = 16;
 
-/// [`velocities`], compiled for the widest registers that there are.
-struct Velocities<'a> {
-    motor: &'a [f64],
-    window: &'a Window,
-}
-
-impl pulp::WithSimd for Velocities<'_> {
-    type Output = Vec<f64>;
-
-    #[inline(always)]
-    fn with_simd<S: pulp::Simd>(self, _: S) -> Vec<f64> {
-        let Self { motor, window } = self;
-        let n = window.len();
-        let rising = &window.first[..n.div_ceil(2)];
-        let mut velocity_at = Vec::with_capacity(motor.len());
-        let velocities = motor.len().saturating_sub(n);
-        for from in (0..velocities).step_by(LANES) {
-            let seen = &motor[from..];
-            let lanes = LANES.min(velocities - from);
-            let found = if lanes == LANES {
-                convolved(rising, n, seen)
-            } else {
-                let mut padded = seen.to_vec();
-                padded.resize(n + LANES, 0.0);
-                convolved(rising, n, &padded)
-            };
-            velocity_at.extend_from_slice(&found[..lanes]);
-        }
-        velocity_at
+#[inline(always)]
+fn side_by_side(motor: &[f64], window: &Window) -> Vec<f64> {
+    let n = window.len();
+    let rising = &window.first[..n.div_ceil(2)];
+    let mut velocity_at = Vec::with_capacity(motor.len());
+    let velocities = motor.len().saturating_sub(n);
+    for from in (0..velocities).step_by(LANES) {
+        let seen = &motor[from..];
+        let lanes = LANES.min(velocities - from);
+        let found = if lanes == LANES {
+            convolved(rising, n, seen)
+        } else {
+            let mut padded = seen.to_vec();
+            padded.resize(n + LANES, 0.0);
+            convolved(rising, n, &padded)
+        };
+        velocity_at.extend_from_slice(&found[..lanes]);
     }
+    velocity_at
 }
 
 /// The velocities in the middle of the first windows of `n` sample intervals, by the first half of ẇ.
