@@ -16,9 +16,9 @@ pub(crate) fn test(root: &Path) -> Result<(), Failure> {
     run("types of the scripts", &mut in_web("npm", &["run", "--silent", "check"]))?;
     run("scripts as committed", &mut in_web("node", &["build.mjs", "--check"]))?;
 
-    // The features of the tests of the workspace: most is built already.
-    let program = ["--workspace", "--features", "lissom-io/schema", "--bin", "lissom"];
-    run("the program", cargo(root, &["build"]).args(program))?;
+    // The program that the tests of the workspace run, with their features: after these nothing is left to build.
+    let program = ["--workspace", "--features", "lissom-io/schema", "--no-run", "--test"];
+    run("the program", cargo(root, &["test"]).args(program).arg("command_line"))?;
     let target = target_folder(root);
     let program = target.join("debug").join("lissom").with_extension(env::consts::EXE_EXTENSION);
     let demo = folder(root, "web-demo")?;

@@ -1,11 +1,16 @@
 //! Loops that use the widest registers of the machine.
 
+use std::sync::LazyLock;
+
+/// What the machine has. Asking it takes longer than the shortest loops.
+static ARCH: LazyLock<pulp::Arch> = LazyLock::new(pulp::Arch::new);
+
 /// What `work` gives, compiled for the widest registers that the machine has, found when the program runs. Nothing is contracted
 /// or reordered: results are the same on every machine.
 ///
 /// `work` calls a function that is always inlined; what is not inlined is compiled for the oldest machine.
 pub(crate) fn widest<T>(work: impl FnOnce() -> T) -> T {
-    pulp::Arch::new().dispatch(Work(work))
+    ARCH.dispatch(Work(work))
 }
 
 struct Work<F>(F);
