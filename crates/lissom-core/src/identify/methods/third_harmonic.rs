@@ -7,8 +7,9 @@ use nalgebra::storage::Owned;
 use nalgebra::{Matrix2x1, U1, U2, Vector1, Vector2};
 use num_complex::Complex64;
 
+use crate::finding::result_key as key;
 use crate::identify::estimate::Estimate;
-use crate::identify::findings::{Severity, result_key as key};
+use crate::identify::findings::Severity;
 use crate::identify::methods::thresholds::{STICKING_BIAS, STICKING_MEASURED};
 use crate::identify::prepare::prepared::Prepared;
 use crate::identify::prepare::run_analysis::RunKind;
