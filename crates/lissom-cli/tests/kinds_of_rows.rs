@@ -159,7 +159,7 @@ fn a_stretch_moved_by_hand() {
                        motor = { column = \"q\", unit = \"rad\" }";
         let result = identified("t,i,q", &rows, signals);
         near(&result, [joint.coulomb, joint.viscous, joint.inertia], [0.03, 0.03, 0.04]);
-        let message = finding(&result, "undriven");
+        let message = finding(&result, "left-out");
         assert!(message.contains(&format!("from {:.2}", 2e-3 * from as f64)), "{message}");
     }
 }

@@ -25,6 +25,7 @@ pub mod beam;
 pub mod drive;
 mod eigenvalues;
 mod error;
+pub mod finding;
 mod friction;
 pub mod identify;
 pub mod information;

@@ -1,6 +1,7 @@
 //! One motion on clocks that logs have: inertia and friction are those of the joint on each of them.
 #![expect(clippy::unwrap_used, reason = "a test fails by panicking")]
 
+use lissom::identify::findings::rows;
 use lissom::identify::{Effort, Finding, Identified, Options, identify};
 use lissom::record::clock::{LogRows, Trim, even_parts};
 use lissom::record::{Axis, Campaign, Channels, Command, CommandQuantity, Hold, Run};
@@ -19,12 +20,12 @@ fn uniform(k: usize) -> f64 {
 
 /// The rows `kept` of a log of 40 s, with other stamps.
 #[track_caller]
-fn identified(kept: &[usize], stamps_s: Vec<f64>, hold: Hold, finding: &str) -> Identified {
+fn identified<Row: 'static>(kept: &[usize], stamps_s: Vec<f64>, hold: Hold) -> Identified {
     let joint = RigidJoint::default();
     let log = joint.follow(20_000, two_sines);
     let pick = |channel: &[f64]| kept.iter().map(|&k| channel[k]).collect::<Vec<f64>>();
     let command = if hold == Hold::Sampled { &log.held } else { &log.measured };
-    let rows = LogRows {
+    let log_rows = LogRows {
         stamps_s,
         sample_time_s: None,
         stamp_step_s: 1e-6,
@@ -33,7 +34,7 @@ fn identified(kept: &[usize], stamps_s: Vec<f64>, hold: Hold, finding: &str) -> 
         motor: pick(&log.angle),
         tips: Vec::new(),
     };
-    let even = even_parts(rows, &Trim::default(), 50).unwrap();
+    let even = even_parts(log_rows, &Trim::default(), 50).unwrap();
     let runs = even.parts.into_iter().enumerate().map(|(index, part)| {
         let run =
             Run::new(format!("log [{index}]"), part.time, part.command, part.motor, part.tips);
@@ -51,7 +52,7 @@ fn identified(kept: &[usize], stamps_s: Vec<f64>, hold: Hold, finding: &str) -> 
     let options = Options { effort: Effort::Quick, ..Options::default() };
     let found = identify(&campaign, &options, |_| ()).unwrap();
     let codes: Vec<&str> = found.findings.iter().map(Finding::code).collect();
-    assert_eq!(codes.iter().filter(|code| **code == finding).count(), 1, "{codes:?}");
+    assert_eq!(found.findings.iter().filter(|f| f.is::<Row>()).count(), 1, "{codes:?}");
     let off = |found: f64, exact: f64| (found / exact - 1.0).abs();
     let inertia = found.inertia.unwrap().value;
     assert!(off(inertia, joint.inertia) < ERROR, "inertia {inertia}");
@@ -73,7 +74,7 @@ fn a_clock_read_every_10_or_12_ms() {
         kept.push(kept.last().unwrap() + [5, 5, 6][kept.len() % 3]);
     }
     let stamps_s = kept.iter().map(|&k| time_s(k)).collect();
-    identified(&kept, stamps_s, Hold::Measured, "resampled");
+    identified::<rows::Resampled>(&kept, stamps_s, Hold::Measured);
 }
 
 #[test]
@@ -84,7 +85,7 @@ fn a_loop_that_is_late_now_and_then() {
         kept.push(kept.last().unwrap() + if uniform(kept.len()) < 0.2 { 3 } else { 2 });
     }
     let stamps_s = kept.iter().map(|&k| time_s(k)).collect();
-    identified(&kept, stamps_s, Hold::Measured, "resampled");
+    identified::<rows::Resampled>(&kept, stamps_s, Hold::Measured);
 }
 
 #[test]
@@ -92,7 +93,7 @@ fn lost_rows() {
     for hold in [Hold::Measured, Hold::Sampled] {
         let kept: Vec<usize> = (0..20_000).filter(|&k| uniform(k) > 0.01).collect();
         let stamps_s = kept.iter().map(|&k| time_s(k)).collect();
-        identified(&kept, stamps_s, hold, "rows-filled");
+        identified::<rows::RowsFilled>(&kept, stamps_s, hold);
     }
 }
 
@@ -104,26 +105,26 @@ fn late_stamps() {
     for k in 1..stamps_s.len() {
         stamps_s[k] = stamps_s[k].max(stamps_s[k - 1] + 1e-6);
     }
-    identified(&kept, stamps_s, Hold::Sampled, "sample-count");
+    identified::<rows::SampleCount>(&kept, stamps_s, Hold::Sampled);
 }
 
 #[test]
 fn a_clock_that_starts_again() {
     let kept: Vec<usize> = (0..20_000).collect();
     let stamps_s = kept.iter().map(|&k| time_s(k % 2500)).collect();
-    identified(&kept, stamps_s, Hold::Sampled, "clock-restart");
+    identified::<rows::ClockRestart>(&kept, stamps_s, Hold::Sampled);
 }
 
 #[test]
 fn a_sample_time_that_changes() {
     let kept: Vec<usize> = (0..10_000).step_by(2).chain(10_000..20_000).collect();
     let stamps_s = kept.iter().map(|&k| time_s(k)).collect();
-    identified(&kept, stamps_s, Hold::Measured, "rate-change");
+    identified::<rows::RateChange>(&kept, stamps_s, Hold::Measured);
 }
 
 #[test]
 fn repeated_readings() {
     let kept: Vec<usize> = (0..20_000).flat_map(|k| [k, k]).collect();
     let stamps_s = (0..40_000).map(|k| k as f64 * 1e-3).collect();
-    identified(&kept, stamps_s, Hold::Measured, "repeated-readings");
+    identified::<rows::RepeatedReadings>(&kept, stamps_s, Hold::Measured);
 }

@@ -5,6 +5,7 @@
 
 use std::f64::consts::{PI, TAU};
 
+use lissom::identify::findings::rows;
 use lissom::identify::{
     ConstantVelocity, Estimate, Finding, LineError, LineShape, Options, Prepared, RunKind,
     Severity, constant_velocity, identify,
@@ -219,13 +220,13 @@ fn sub_linear_friction_is_flagged_as_too_high() {
         }
     }
     let id = identify(&both(QUIET, saturating), &Options::default(), |_| {}).unwrap();
-    let curved = id.findings.iter().find(|f| f.code() == "extrapolation-curved").unwrap();
+    let curved = id.findings.iter().find(|f| f.is::<rows::ExtrapolationCurved>()).unwrap();
     assert!(curved.message().contains("is too high"), "{}", curved.message());
     // The estimate taken is that of the slowest speeds.
     let taken = id.friction.forward.unwrap();
     let line = id.constant_velocity.as_ref().unwrap().forward.unwrap();
     assert_eq!(taken, line.near_rest());
-    assert!(codes(&id.findings).contains(&"slowest-speeds-taken"));
+    assert!(id.findings.iter().any(Finding::is::<rows::SlowestSpeedsTaken>));
 }
 
 #[test]
@@ -350,17 +351,18 @@ fn what_is_missing_of_a_campaign_of_constant_velocities_is_said() {
     };
     let up = || staircase(&SPEEDS, QUIET, coulomb);
     let id = found(vec![up()]);
-    assert!(codes(&id.findings).contains(&"one-direction"));
+    assert!(id.findings.iter().any(Finding::is::<rows::OneDirection>));
     assert!(id.friction.coulomb.is_none() && id.friction.viscous.is_some());
     let id = found(vec![up(), staircase(&[-5.0], QUIET, coulomb)]);
-    assert!(codes(&id.findings).contains(&"too-few-speeds"));
+    assert!(id.findings.iter().any(Finding::is::<rows::TooFewSpeeds>));
     let id = found(vec![up(), staircase(&[-4.0, -8.0], QUIET, coulomb)]);
-    assert!(codes(&id.findings).contains(&"two-speeds"));
+    assert!(id.findings.iter().any(Finding::is::<rows::TwoSpeeds>));
     assert!(id.friction.coulomb.is_some());
     let close = (0..20).any(|seed| {
         let noisy = Bench { noise_a: 1.0, seed, ..QUIET };
         let id = found(vec![up(), staircase(&[-18.0, -19.0, -20.0], noisy, coulomb)]);
-        codes(&id.findings).contains(&"speeds-too-close") && id.friction.coulomb.is_none()
+        let is_refused = id.findings.iter().any(Finding::is::<rows::SpeedsTooClose>);
+        is_refused && id.friction.coulomb.is_none()
     });
     assert!(close);
 }

@@ -260,7 +260,7 @@ fn sizes_are_no_matter_until_doubles_end() {
                 );
                 // No angle per angle: there is no form for use, and that is said.
                 assert!(found.strainless.is_none());
-                assert!(said(&found, "equivalent-no-angle").unwrap().contains("are not given"));
+                assert!(said(&found, "equivalent-gains").unwrap().contains("are not given"));
             }
             Err(refused) => {
                 assert!(matches!(refused, EquivalentRefusal::Size { .. }), "{refused}");

@@ -159,7 +159,7 @@ fn damping_within_the_beam_is_in_viscous_frictions_interval() {
 fn a_late_motor_is_turned_back() {
     for known in [true, false] {
         let truth = Truth { motor_delay_s: 1e-3, ..SOUND };
-        sound(truth, false, known, &["equivalent-motor-delay"]).unwrap();
+        sound(truth, false, known, &["equivalent-delay"]).unwrap();
         let noise = Noise { size: 0.02, of_one_size: false, known, seed: 1 };
         let late = equivalent(&data(truth, &noise), None).unwrap().arm.unwrap().delay_s.unwrap();
         assert!((late.value - 1e-3).abs() < 4.0 * late.std && late.std < 1e-4, "{late:?}");

@@ -3,7 +3,7 @@
 
 #![expect(clippy::unwrap_used, reason = "tests")]
 
-use lissom::identify::findings::{FindingKind, RegressionFinding};
+use lissom::identify::findings::rows;
 use lissom::identify::{Effort, Estimate, Finding, Identified, MissingKind, Options, identify};
 use lissom::record::{Axis, Campaign, Channels, Command, CommandQuantity, Hold, Run, TimeBase};
 
@@ -149,12 +149,8 @@ fn friction_that_grows_with_the_motor_s_torque() {
                 law.near_rest.is_some() || law.root.is_some() || law.viscous_by_direction.is_some();
             assert!(!by_speed, "{seed}: {law:?}");
         }
-        let named = found.findings.iter().any(|f| match &f.kind {
-            FindingKind::Regression(RegressionFinding::MissingTerm { term, .. }) => {
-                term.kind == MissingKind::WithTorque
-            }
-            _ => false,
-        });
+        let with_torque = |row: &rows::MissingTerm| row.term.kind == MissingKind::WithTorque;
+        let named = found.findings.iter().any(|f| f.get().is_some_and(with_torque));
         assert!(
             named,
             "{seed}: {:?}",

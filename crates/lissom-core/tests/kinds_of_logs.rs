@@ -2,7 +2,7 @@
 
 #![expect(clippy::unwrap_used, reason = "tests")]
 
-use lissom::identify::findings::{EstimateFinding, FindingKind, RegressionFinding};
+use lissom::identify::findings::rows;
 use lissom::identify::{
     Effort, Estimate, Finding, GravityPartner, Identified, Method, MissingKind, Options, Severity,
     identify,
@@ -72,8 +72,8 @@ fn a_load_larger_than_friction() {
     within("inertia", found.inertia, 0.01, 0.01);
     within("offset", found.friction.offset, 1.0, 0.01);
     within("backward", found.friction.backward, -0.85, 0.01);
-    let load = |f: &FindingKind| matches!(f, FindingKind::Estimate(EstimateFinding::Offset { share, .. }) if *share > 1.0);
-    assert!(found.findings.iter().any(|f| load(&f.kind)), "{:?}", codes(&found));
+    let load = |row: &rows::Offset| row.share > 1.0;
+    assert!(found.findings.iter().any(|f| f.get().is_some_and(load)), "{:?}", codes(&found));
     assert!(found.arm.is_some());
 }
 
@@ -102,12 +102,11 @@ fn gravity_of_an_unbalanced_load() {
     within("gravity of the line", line.gravity.map(|g| g.amplitude()), 0.6, 0.02);
     // Where it is not asked for, the first finding names it.
     let without = quick(&measured(&joint, log));
-    let names = |f: &FindingKind| {
-        matches!(f, FindingKind::Regression(RegressionFinding::MissingTerm { term, .. })
-            if term.kind == MissingKind::Gravity && (term.value / 0.6 - 1.0).abs() < 0.2)
+    let names = |rows::MissingTerm { term, .. }: &rows::MissingTerm| {
+        term.kind == MissingKind::Gravity && (term.value / 0.6 - 1.0).abs() < 0.2
     };
     let warnings = without.findings.iter().filter(|f| f.hint().contains("gravity = true"));
-    assert!(warnings.clone().any(|f| names(&f.kind)), "{:?}", codes(&without));
+    assert!(warnings.clone().any(|f| f.get().is_some_and(names)), "{:?}", codes(&without));
 }
 
 /// Replayed with the load as a known input: the estimates are those of the output error, which describes the whole run.
@@ -181,13 +180,8 @@ fn gravity_in_one_small_sine() {
     let mut log = joint.follow(10_000, |t| 0.15 * (TAU * t).sin());
     noisy(&mut log.measured, 0.02);
     let found = quick(&measured(&joint, log).with_gravity().unwrap());
-    let pair = |f: &FindingKind| {
-        let FindingKind::Regression(RegressionFinding::GravityUnseparated { with, .. }) = f else {
-            return None;
-        };
-        Some(*with)
-    };
-    let pairs: Vec<GravityPartner> = found.findings.iter().filter_map(|f| pair(&f.kind)).collect();
+    let pair = |f: &Finding| f.get().map(|row: &rows::GravityUnseparated| row.with);
+    let pairs: Vec<GravityPartner> = found.findings.iter().filter_map(pair).collect();
     assert!(pairs.contains(&GravityPartner::Offset), "{pairs:?} {:?}", codes(&found));
 }
 
@@ -412,9 +406,7 @@ fn wandering_friction_in_an_open_loop() {
     let command = log.time_s.iter().map(|t| held(*t)).collect();
     let one = run("log", &joint, command, log.angle);
     let found = quick(&Campaign::new(channels(Hold::Sampled), vec![one]).unwrap());
-    let short = |f: &Finding| {
-        matches!(f.kind, FindingKind::Regression(RegressionFinding::InertiaShort { .. }))
-    };
+    let short = Finding::is::<rows::InertiaShort>;
     assert!(found.findings.iter().any(short), "{:?}", codes(&found));
     let short_by = found.regression.unwrap().inertia_short_by.unwrap();
     let inertia = found.inertia.unwrap().value;
@@ -429,7 +421,7 @@ fn a_reversed_command() {
     let mut log = joint.follow(20_000, wide);
     log.measured.iter_mut().for_each(|i| *i = -*i);
     let found = quick(&measured(&joint, log).with_gravity().unwrap());
-    assert_eq!(codes(&found)[0], "command-sign");
+    assert_eq!(codes(&found)[0], "reversed-sign");
     let others = ["negative-estimate", "others-doubtful", "missing-term", "unexplained-torque"];
     assert!(!codes(&found).iter().any(|code| others.contains(code)), "{:?}", codes(&found));
     assert!(found.friction.coulomb.is_none() && found.inertia.is_none());

@@ -2,7 +2,8 @@
 //! is more than the motor's viscous friction.
 #![expect(clippy::unwrap_used, reason = "a test fails by panicking")]
 
-use lissom::identify::{Identified, Options, identify};
+use lissom::identify::findings::rows;
+use lissom::identify::{Finding, Identified, Options, identify};
 use lissom::record::{
     Axis, Campaign, Channels, Command, CommandQuantity, Hold, Run, TimeBase, Tip, TipQuantity,
 };
@@ -72,7 +73,7 @@ fn viscous_friction_is_that_of_the_motor() {
         assert!((coulomb.value / COULOMB - 1.0).abs() < 0.02, "{late_s}: {coulomb:?}");
         let coupling = found.beam.coupling.unwrap();
         assert!((coupling.value / GEAR - 1.0).abs() < 0.01, "{late_s}: {coupling:?}");
-        let said = found.findings.iter().any(|f| f.code() == "tip-read-late");
+        let said = found.findings.iter().any(Finding::is::<rows::TipReadLate>);
         assert_eq!(said, late_s > 0.0, "{:?}", found.findings);
         // The arm is that of the logs as they are.
         let arm = found.arm.as_ref().unwrap();

@@ -4,6 +4,7 @@
 use lissom::arm::Arm;
 use lissom::beam::{LumpedBeam, Span};
 use lissom::drive::{Coulomb, Motor};
+use lissom::identify::findings::{Finding, rows};
 use lissom::identify::{
     ArmSource, Effort, Estimate, Identified, Interrupt, Options, OutputErrorStart, Prepared,
     identify, output_error,
@@ -71,7 +72,7 @@ fn are_the_arms(id: &Identified, rig: &Rig) {
     for (found, truth) in id.beam.modes.iter().zip(&arm.modes) {
         is("frequency", Some(found.natural_frequency_rad_s), truth.omega_rad_s, 2e-3);
     }
-    assert!(id.findings.iter().any(|f| f.code() == "modes-by-the-motor"), "{:?}", id.findings);
+    assert!(id.findings.iter().any(Finding::is::<rows::ModesByTheMotor>), "{:?}", id.findings);
 }
 
 #[test]

@@ -2,7 +2,7 @@
 
 #![expect(clippy::unwrap_used, reason = "tests")]
 
-use lissom::identify::findings::{Channel, ChannelFinding, FindingKind, RunFinding};
+use lissom::identify::findings::{Channel, rows};
 use lissom::identify::{Effort, Estimate, Identified, Options, RunDifference, identify};
 use lissom::record::{Axis, Campaign, Channels, Command, CommandQuantity, Hold, Run, TimeBase};
 use lissom_testmodels::{RigidJoint, RigidLog};
@@ -64,12 +64,7 @@ fn named(bad: &dyn Fn() -> RigidLog) -> RunDifference {
     let differences: Vec<_> = found
         .findings
         .iter()
-        .filter_map(|f| match &f.kind {
-            FindingKind::Run(RunFinding::UnlikeOthers { difference, .. }) => {
-                Some((f.run.clone().unwrap(), *difference))
-            }
-            _ => None,
-        })
+        .filter_map(|f| Some((f.run.clone()?, f.get::<rows::UnlikeOthers>()?.difference)))
         .collect();
     assert_eq!(differences.len(), 1, "{differences:?}");
     assert_eq!(differences[0].0, format!("run {BAD}"));
@@ -152,17 +147,8 @@ fn an_angle_that_freezes() {
     let by_hand = identified(others.collect());
     let found = identified(all);
     same_estimates(&found, &by_hand);
-    let is_named = |kind: &FindingKind| {
-        matches!(
-            kind,
-            FindingKind::Channel(ChannelFinding::FrozenChannel {
-                channel: Channel::Motor,
-                left_out: true,
-                ..
-            })
-        )
-    };
-    let named = found.findings.iter().find(|f| is_named(&f.kind)).unwrap();
+    let is_named = |row: &rows::FrozenChannel| row.channel == Channel::Motor && row.left_out;
+    let named = found.findings.iter().find(|f| f.get().is_some_and(is_named)).unwrap();
     assert_eq!(named.run.as_deref(), Some("run 3"));
 }
 

@@ -214,7 +214,7 @@ impl FleetError {
                 "times are as in 2026-11-27, 2026-11-27T08:15:00Z, 20261127_081500, or seconds since 1970"
             }
             Self::FindingCode { .. } => {
-                "codes are those of the findings of a result, e.g. few-periods"
+                "codes are those of the findings of a result, e.g. not-periodic"
             }
             Self::Setting { .. } => "give a positive number",
             Self::InUse { .. } => "wait until that run has ended, or write into another folder",

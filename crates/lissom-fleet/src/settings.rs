@@ -3,7 +3,7 @@
 use std::path::{Component, Path, PathBuf};
 use std::time::Duration;
 
-use lissom::identify::FindingKind;
+use lissom::identify::findings;
 use lissom_io::{CampaignReader, EffortName};
 use serde::{Deserialize, Serialize};
 
@@ -86,7 +86,7 @@ impl FleetSettings {
     /// [`FleetError::FindingCode`] if one does not.
     pub(crate) fn check_codes(&self) -> Result<(), FleetError> {
         let asked = self.refinement.iter().flat_map(|more| &more.codes);
-        match asked.into_iter().find(|code| FindingKind::codes().all(|known| known != *code)) {
+        match asked.into_iter().find(|code| !findings::codes().contains(&code.as_str())) {
             Some(code) => Err(FleetError::FindingCode { code: code.clone() }),
             None => Ok(()),
         }

@@ -3,7 +3,8 @@
 
 use std::fmt::Write as _;
 
-use lissom::identify::{Effort, Identified, Options, identify};
+use lissom::identify::{Effort, Finding, Identified, Options, identify};
+use lissom::record::note;
 use lissom_io::campaign::read_campaign;
 use lissom_testmodels::{RigidJoint, RigidLog, two_sines};
 
@@ -68,7 +69,7 @@ fn a_negative_torque_constant_and_an_encoder_that_wraps() {
         [drive]
         torque_constant = "-0.25 N*m/A""#;
     let found = identified(signals, &text);
-    assert!(found.findings.iter().any(|finding| finding.code() == "turns-removed"));
+    assert!(found.findings.iter().any(Finding::is::<note::TurnsRemoved>));
     has(&found, joint.inertia, joint.coulomb, joint.viscous);
 }
 

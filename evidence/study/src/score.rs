@@ -1,9 +1,6 @@
 //! Compares estimates with the truth.
 
-use lissom::identify::findings::{
-    BeamFinding, ChannelFinding, EstimateFinding, Finding, FindingKind, FrictionLawFinding,
-    LawSource, OutputErrorFinding, Severity,
-};
+use lissom::identify::findings::{Finding, LawSource, Severity, rows};
 use lissom::identify::{Estimate, Identified, ModeEstimate, RunKind, corrected};
 use num_complex::Complex64;
 use serde::{Deserialize, Serialize};
@@ -235,19 +232,15 @@ impl FindingScore {
 
 /// Whether a finding reports that the equation of motion is wrong.
 fn is_law_alarm(finding: &Finding) -> bool {
-    let says = match &finding.kind {
-        FindingKind::Estimate(EstimateFinding::Offset { .. }) => true,
-        // No alarm if the estimates are those of the law.
-        FindingKind::FrictionLaw(FrictionLawFinding::FrictionLaw { source, .. }) => {
-            !matches!(source, LawSource::SlipPhases { replayed_without: true, .. })
-        }
-        _ => false,
+    // No alarm if the estimates are those of the law.
+    let law = |row: &rows::FrictionLaw| {
+        !matches!(row.source, LawSource::SlipPhases { replayed_without: true, .. })
     };
-    if says {
+    if finding.is::<rows::Offset>() || finding.get().is_some_and(law) {
         return true;
     }
     let warns = finding.severity() >= Severity::Warning;
-    warns && about_equation(finding) && !about_data(&finding.kind)
+    warns && about_equation(finding) && !about_data(finding.code())
 }
 
 /// Whether a finding about the whole campaign affects a parameter of the motor's equation of motion.
@@ -264,26 +257,19 @@ fn about_equation(finding: &Finding) -> bool {
 }
 
 /// Whether a finding is about the information in the runs, not about the equation of motion.
-fn about_data(kind: &FindingKind) -> bool {
-    match kind {
-        FindingKind::Channel(found) => matches!(found, ChannelFinding::DeadChannel { .. }),
-        FindingKind::OutputError(found) => matches!(
-            found,
-            OutputErrorFinding::DampingKind { .. } | OutputErrorFinding::FaintMode { .. }
-        ),
-        FindingKind::Beam(found) => {
-            matches!(found, BeamFinding::ModesNotFound | BeamFinding::MoreModesThanTips { .. })
-        }
-        FindingKind::Estimate(found) => matches!(
-            found,
-            EstimateFinding::PoorExcitation { .. }
-                | EstimateFinding::NotSeparable { .. }
-                | EstimateFinding::NoPairs
-                | EstimateFinding::MethodsDisagree { .. }
-                | EstimateFinding::FrictionVisible { .. }
-        ),
-        _ => false,
-    }
+fn about_data(code: &str) -> bool {
+    let about_data = [
+        rows::DeadChannel::CODE,
+        rows::DampingKind::CODE,
+        rows::FaintMode::CODE,
+        rows::ModesNotFound::CODE,
+        rows::MoreModesThanTips::CODE,
+        rows::PoorExcitation::CODE,
+        rows::NoPairs::CODE,
+        rows::ThirdHarmonicDisagrees::CODE,
+        rows::OddHarmonics::CODE,
+    ];
+    about_data.contains(&code)
 }
 
 /// The mode found for each true one: in order if there are as many, otherwise the nearest of the remaining ones.
@@ -370,9 +356,7 @@ mod estimate {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use lissom::identify::findings::{
-        EstimateUnits, JudgedParameter, RegressionFinding, ResponseFinding,
-    };
+    use lissom::identify::findings::{EstimateUnits, JudgedParameter};
     use lissom::record::{Axis, CommandQuantity};
 
     fn mode(omega: f64) -> ModeEstimate {
@@ -474,17 +458,16 @@ mod tests {
 
     #[test]
     fn alarms_speak_of_the_law() {
-        let unexplained =
-            || Finding::new(RegressionFinding::UnexplainedTorque { residual_share: 0.3 });
+        let unexplained = || Finding::new(rows::UnexplainedTorque { residual_share: 0.3 });
         assert!(is_law_alarm(&unexplained()));
-        assert!(!is_law_alarm(&Finding { run: Some("a".to_owned()), ..unexplained() }));
-        let bands = ResponseFinding::BandsUncertain { bands: 1, of: 2, limit: 0.02 };
+        assert!(!is_law_alarm(&Finding::of_run("a", unexplained())));
+        let bands = rows::BandsUncertain { bands: 1, of: 2, limit: 0.02 };
         assert!(!is_law_alarm(&Finding::new(bands)));
         let parameter = JudgedParameter::Inertia;
-        assert!(!is_law_alarm(&Finding::new(EstimateFinding::NotSeparable { parameter })));
+        assert!(!is_law_alarm(&Finding::new(rows::NotSeparable { parameter })));
         let (offset, axis) = (Estimate { value: 0.1, std: 0.01 }, Axis::Rotary);
         let units = EstimateUnits { axis, command: CommandQuantity::Current, torque_known: true };
-        let offset = EstimateFinding::Offset { offset, units, share: 0.1 };
+        let offset = rows::Offset { offset, units, share: 0.1 };
         assert!(is_law_alarm(&Finding::new(offset)));
     }
 }

@@ -1,16 +1,13 @@
 //! Options and commands that help with a finding. The library's own hints name none of them.
 
-use lissom::identify::findings::{
-    EquivalentFinding, EquivalentMotorFinding, FindingKind, OutputErrorFinding, RegressionFinding,
-    ValidationFinding,
-};
+use lissom::identify::findings::rows;
 use lissom::identify::{EquivalentRefusal, Finding, MissingKind, MovedBy};
 use lissom_io::result::FindingEntry;
 use lissom_views::ProgramHints;
 
 /// What the command adds to the report page of an identification.
 pub(crate) fn page_hints(findings: &[Finding]) -> ProgramHints {
-    hints_of(findings.iter().map(|finding| command_hint(&finding.kind)))
+    hints_of(findings.iter().map(command_hint))
 }
 
 /// What the command adds to the report page of a stored result. Only the codes of its findings are known.
@@ -26,47 +23,41 @@ fn hints_of(of_findings: impl Iterator<Item = Option<&'static str>>) -> ProgramH
 /// The hint of findings for which it does not depend on their numbers.
 fn code_hint(code: &str) -> Option<&'static str> {
     match code {
-        "one-sine" => Some(WITHOUT_QUICK),
-        "more-than-noise" => Some(RESIDUALS),
-        "faint-mode" => Some(MODEL_MODES),
+        rows::OneSine::CODE => Some(WITHOUT_QUICK),
+        rows::MoreThanNoise::CODE => {
+            Some("`lissom validate RESULT CAMPAIGN` shows the residual of each channel")
+        }
+        rows::FaintMode::CODE => {
+            Some("`lissom model ARM` gives the frequencies of a beam of known dimensions")
+        }
+        rows::EquivalentMotorFriction::CODE => {
+            Some("`lissom identify CAMPAIGN` removes friction and identifies the arm from logs")
+        }
+        rows::EquivalentTermsInS::CODE => {
+            Some("`lissom identify CAMPAIGN` identifies the arm from logs")
+        }
+        rows::TorqueHidden::CODE => Some(WINDOW),
         _ => None,
     }
 }
 
 /// The option or command that helps with a finding, in addition to the finding's own hint.
-pub(crate) fn command_hint(kind: &FindingKind) -> Option<&'static str> {
-    match kind {
-        FindingKind::Regression(RegressionFinding::OneSine) => Some(WITHOUT_QUICK),
-        FindingKind::Regression(RegressionFinding::MissingTerm { term, .. }) => {
-            (term.kind == MissingKind::BeamDamping).then_some(WITHOUT_QUICK)
-        }
-        FindingKind::OutputError(OutputErrorFinding::MoreThanNoise { .. }) => Some(RESIDUALS),
-        FindingKind::OutputError(OutputErrorFinding::FaintMode { .. }) => Some(MODEL_MODES),
-        FindingKind::Equivalent(found) => equivalent(found),
-        FindingKind::EquivalentMotor(EquivalentMotorFinding::EquivalentMotorFriction {
-            ..
-        }) => Some("`lissom identify CAMPAIGN` removes friction and identifies the arm from logs"),
-        FindingKind::Validation(
-            ValidationFinding::TorqueNotPredicted { coupling_known: true }
-            | ValidationFinding::TorqueHidden { .. },
-        ) => Some("--window TIME sets the length of the window"),
-        FindingKind::Validation(ValidationFinding::ModeMoved { moved }) => (moved.by
-            == MovedBy::Load)
-            .then_some("`lissom payload CAMPAIGN` predicts the modes with another payload"),
-        _ => None,
+pub(crate) fn command_hint(finding: &Finding) -> Option<&'static str> {
+    if let Some(rows::EquivalentRefused { refusal }) = finding.get() {
+        return refusal_hint(refusal);
     }
-}
-
-fn equivalent(found: &EquivalentFinding) -> Option<&'static str> {
-    match found {
-        EquivalentFinding::EquivalentRefused { refusal } => refusal_hint(refusal),
-        EquivalentFinding::EquivalentModesLeftOut { .. } => {
+    let is_damping = |row: &rows::MissingTerm| row.term.kind == MissingKind::BeamDamping;
+    let by_load = |row: &rows::ModeMoved| row.moved.by == MovedBy::Load;
+    match finding {
+        _ if finding.get().is_some_and(is_damping) => Some(WITHOUT_QUICK),
+        _ if finding.get().is_some_and(by_load) => {
+            Some("`lissom payload CAMPAIGN` predicts the modes with another payload")
+        }
+        _ if finding.is::<rows::NoWindow>() => Some(WINDOW),
+        _ if finding.is::<rows::EquivalentModesLeftOut>() => {
             Some("--modes N keeps the N lowest modes")
         }
-        EquivalentFinding::EquivalentTermsInS { .. } => {
-            Some("`lissom identify CAMPAIGN` identifies the arm from logs")
-        }
-        _ => None,
+        _ => code_hint(finding.code()),
     }
 }
 
@@ -94,7 +85,6 @@ pub(crate) fn refusal_hint(refusal: &EquivalentRefusal) -> Option<&'static str> 
     }
 }
 
-const RESIDUALS: &str = "`lissom validate RESULT CAMPAIGN` shows the residual of each channel";
-const MODEL_MODES: &str = "`lissom model ARM` gives the frequencies of a beam of known dimensions";
 const WITHOUT_QUICK: &str =
     "this method is used unless --quick is given or the command is too noisy for it";
+const WINDOW: &str = "--window TIME sets the length of the window";

@@ -37,7 +37,7 @@ pub(crate) fn findings(findings: &[Finding]) {
         if !finding.hint().is_empty() {
             line(&format!("    hint: {}", finding.hint()));
         }
-        if let Some(command) = command_hint(&finding.kind) {
+        if let Some(command) = command_hint(finding) {
             line(&format!("    command: {command}"));
         }
     }

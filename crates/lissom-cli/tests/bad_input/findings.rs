@@ -49,13 +49,13 @@ fn gaps_cut_a_log_into_runs() {
     rows.drain(1400..1500);
     let bench = Bench::log(csv(&rows));
     assert_eq!(
-        bench.findings("gap"),
+        bench.findings("log-cut"),
         [
             "run.csv [1/2]: the log has 2 gaps, the longest of 0.5050 s after 6.9950 s: it is cut there into separate runs"
         ]
     );
     assert_eq!(
-        bench.findings("piece-dropped"),
+        bench.findings("left-out"),
         [
             "run.csv [1/2]: the piece of the log from 7.5000 s on, between two cuts, has only 20 samples: it is not used"
         ]
@@ -85,7 +85,7 @@ fn a_long_log_is_thinned() {
 fn a_head_is_skipped() {
     let bench = Bench::adding("skip = \"2 s\"\n");
     assert_eq!(
-        bench.findings("head-skipped"),
+        bench.findings("left-out"),
         ["run.csv: the first 2 s are left out, as the campaign asks"]
     );
 }
@@ -93,7 +93,7 @@ fn a_head_is_skipped() {
 #[test]
 fn late_stamps_are_counted() {
     let off = |k: usize| ((k * 7919 % 11) as f64 / 5.0 - 1.0) * 1e-3;
-    let found = changed(|k, row| row[0] += off(k)).findings("sample-count");
+    let found = changed(|k, row| row[0] += off(k)).findings("uneven-stamps");
     let [found] = found.as_slice() else { panic!("{found:?}") };
     let start = "run.csv: time stamps are uneven by 13 % of a step (rms), and the motion contradicts them (with the stamps the \
                  prediction error of the angle is";
@@ -109,7 +109,7 @@ fn jitter_is_measured_where_the_angle_does_not_show_the_clock() {
         row[0] += off(k);
         row[2] = (row[2] / 0.1).round() * 0.1;
     };
-    let found = changed(coarse).findings("jitter");
+    let found = changed(coarse).findings("uneven-stamps");
     let [found] = found.as_slice() else { panic!("{found:?}") };
     assert!(found.starts_with("run.csv: time stamps differ from an even grid by 12."), "{found}");
 }
@@ -137,12 +137,12 @@ fn saturation_is_seen_with_and_without_a_known_limit() {
 #[test]
 fn periods_are_counted() {
     assert_eq!(
-        Bench::log(csv(&motion(1.0, 0.005, 26.0))).findings("few-periods"),
+        Bench::log(csv(&motion(1.0, 0.005, 26.0))).findings("not-periodic"),
         ["run.csv: only 4 periods are in steady state: standard errors of the harmonics are rough"]
     );
     let slow = Bench::adding("omega_rad_s = 0.5\n").file("run.csv", csv(&motion(0.5, 0.005, 20.0)));
     assert_eq!(
-        slow.findings("too-few-periods"),
+        slow.findings("not-sinusoidal"),
         [
             "run.csv: at the given 0.5000 rad/s the log has 1 of the 3 blocks of whole periods that a steady state needs. \
           The run is used as a general motion, not as a sine"
@@ -204,17 +204,17 @@ fn a_lone_reading_is_replaced_and_many_are_reported() {
         }
     };
     let bench = changed(spiked);
-    let found = bench.findings("spikes-replaced");
+    let found = bench.findings("readings-corrected");
     let [told] = &found[..] else { panic!("{found:?}") };
     assert!(told.contains("the motor reads 3."), "{told}");
     assert!(told.contains("far from the readings before and after it"), "{told}");
-    assert!(bench.findings("spike").is_empty());
+    assert!(bench.findings("wrong-readings").is_empty());
     let many = |i: usize, row: &mut Row| {
         if i % 200 == 100 {
             row[2] += 3.0;
         }
     };
-    let found = changed(many).findings("spike");
+    let found = changed(many).findings("wrong-readings");
     let [told] = &found[..] else { panic!("{found:?}") };
     assert!(told.contains("the motor channel has a spike"), "{told}");
 }

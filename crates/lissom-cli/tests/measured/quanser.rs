@@ -28,6 +28,6 @@ fn a_gauge_of_the_other_sign_is_noticed() {
     let Some(data) = common::data("quanser-2dsfl") else { return };
     let text = include_str!("quanser.toml").replace(", scale = -1", "");
     let result = common::identify(&text, &data, "", 3);
-    assert!(common::has_finding(&result, "coupling-sign"));
+    assert!(common::has_finding(&result, "reversed-sign"));
     assert!(result["beam"]["coupling"].is_null());
 }

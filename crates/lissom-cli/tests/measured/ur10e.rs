@@ -1,6 +1,6 @@
 //! UR10E, Mamedov: joints of a robot arm with harmonic drives, a clock of 10 and 12 ms, and gravity on joint 4.
 
-use lissom::identify::findings::{FindingKind, RegressionFinding};
+use lissom::identify::findings::rows;
 use lissom::identify::{Effort, Estimate, Identified, MissingKind, Options, identify};
 
 use super::common;
@@ -43,7 +43,7 @@ fn joint_1_has_the_line_that_others_find() {
         let value = value.unwrap().value;
         assert!(value < 4.4, "Coulomb friction {name}: {value} A");
     }
-    let clock = found.findings.iter().filter(|f| f.code() == "resampled").count();
+    let clock = found.findings.iter().filter(|f| f.is::<rows::Resampled>()).count();
     assert_eq!(clock, 1);
 }
 
@@ -61,10 +61,7 @@ fn joint_4_has_gravity() {
 #[test]
 fn joint_4_without_gravity_is_told_to_add_it() {
     let Some(found) = quick(4, false) else { return };
-    let gravity = |kind: &FindingKind| {
-        matches!(kind, FindingKind::Regression(RegressionFinding::MissingTerm { term, .. })
-            if term.kind == MissingKind::Gravity)
-    };
+    let gravity = |row: &rows::MissingTerm| row.term.kind == MissingKind::Gravity;
     let codes: Vec<_> = found.findings.iter().map(lissom::identify::Finding::code).collect();
-    assert!(found.findings.iter().any(|f| gravity(&f.kind)), "{codes:?}");
+    assert!(found.findings.iter().any(|f| f.get().is_some_and(gravity)), "{codes:?}");
 }

@@ -33,7 +33,7 @@ pub use equivalent::{
     equivalent_beam, response_zeros,
 };
 pub use estimate::{Estimate, ModeEstimate, NORMAL_95};
-pub use findings::{Finding, FindingKind, Severity};
+pub use findings::{Finding, Severity};
 pub use found_arm::{ArmSource, FoundArm, TorqueUsed};
 pub use friction_estimates::{Friction, LawEstimates, NearRestEstimate, RippleEstimate};
 pub use geometry::{ArmQuantity, Explanation, GeometryCheck, geometry_check};

@@ -1,7 +1,7 @@
 //! Prediction of an identified arm with another payload.
 
 use crate::identify::estimate::{Estimate, ModeEstimate};
-use crate::identify::findings::{Finding, PayloadFinding};
+use crate::identify::findings::{Finding, rows};
 use crate::identify::methods::output_error::OutputError;
 use crate::identify::responses::correct::Response;
 use crate::replay::ModalArm;
@@ -20,7 +20,7 @@ pub struct LoadedArm {
 impl LoadedArm {
     /// The finding that says which errors the intervals do not include.
     pub fn caveat(&self) -> Finding {
-        Finding::new(PayloadFinding::PayloadHighestMode { modes: self.modes.len() })
+        Finding::new(rows::PayloadHighestMode { modes: self.modes.len() })
     }
 }
 

@@ -4,7 +4,7 @@ use thiserror::Error;
 
 use crate::identify::equivalent::{Equivalent, EquivalentData, equivalent};
 use crate::identify::estimate::{Estimate, ModeEstimate};
-use crate::identify::findings::{EquivalentFinding, EstimateUnits, Finding, RegressionFinding};
+use crate::identify::findings::{EstimateUnits, Finding, rows};
 use crate::identify::identified::Identified;
 use crate::identify::judge::{Evidence, Methods, conclude, slip_phase_solution, slip_phase_terms};
 use crate::identify::methods::constant_velocity;
@@ -269,7 +269,7 @@ fn assumed_hold(
 ) -> Option<Finding> {
     let other = campaign.hold_assumed.then(|| other_hold(campaign, options, found))??;
     let units = EstimateUnits::new(&campaign.channels);
-    Some(Finding::new(RegressionFinding::HoldAssumed { other, units }))
+    Some(Finding::new(rows::HoldAssumed { other, units }))
 }
 
 /// Whether the beam's regression has a small residual, all its modes are damped, and the tips show about all of their motion.
@@ -319,9 +319,7 @@ fn equivalent_arm(
     match data.filter(|data| data.names.len() > 1).map(|data| equivalent(&data, None)) {
         None => (None, Vec::new()),
         Some(Ok(found)) => (Some(found), Vec::new()),
-        Some(Err(refusal)) => {
-            (None, vec![Finding::new(EquivalentFinding::EquivalentRefused { refusal })])
-        }
+        Some(Err(refusal)) => (None, vec![Finding::new(rows::EquivalentRefused { refusal })]),
     }
 }
 

@@ -5,7 +5,7 @@ mod channel;
 pub mod clock;
 mod error;
 pub(crate) mod extent;
-mod note;
+pub mod note;
 pub mod other_clock;
 mod rest_readings;
 mod run;
@@ -14,7 +14,6 @@ mod undriven;
 
 pub use channel::{Axis, Channels, Command, CommandQuantity, Hold, Tip, TipQuantity};
 pub use error::RecordError;
-pub use note::Note;
 pub use rest_readings::{RestingReadings, rest_at_zero};
 pub(crate) use run::shifted;
 pub use run::{Run, TimeBase};

@@ -1,6 +1,7 @@
 //! One run: uniformly sampled channels.
 
-use super::{Note, RecordError};
+use super::RecordError;
+use crate::finding::Finding;
 
 /// Fewest samples a run may have.
 const LEAST_SAMPLES: usize = 8;
@@ -35,7 +36,7 @@ pub struct Run {
     motor: Vec<f64>,
     tips: Vec<Vec<f64>>,
     omega_rad_s: Option<f64>,
-    notes: Vec<Note>,
+    notes: Vec<Finding>,
 }
 
 impl Run {
@@ -107,8 +108,8 @@ impl Run {
 
     /// Adds a note about a change that was made to the log, for example that it was cut at a gap.
     #[must_use]
-    pub fn with_note(mut self, note: Note) -> Self {
-        self.notes.push(note);
+    pub fn with_note(mut self, note: impl Into<Finding>) -> Self {
+        self.notes.push(note.into());
         self
     }
 
@@ -162,7 +163,7 @@ impl Run {
         self.omega_rad_s
     }
     /// Notes about changes that were made to the log.
-    pub fn notes(&self) -> &[Note] {
+    pub fn notes(&self) -> &[Finding] {
         &self.notes
     }
 }

@@ -4,7 +4,7 @@
 use std::f64::consts::PI;
 use std::fmt::Write as _;
 
-use lissom_core::record::{Axis, CommandQuantity, Note};
+use lissom_core::record::{Axis, CommandQuantity, note};
 
 use super::campaign_tests::{PLAIN, fails, read, read_logs, signal};
 
@@ -139,7 +139,7 @@ fn a_speed_is_integrated() {
         assert_eq!(run.motor()[0], 0.0);
         let sum: f64 = (0..7).map(|k| f64::midpoint(signal(k), signal(k + 1))).sum();
         assert!((run.motor()[7] - sum * size * 1e-3).abs() < 1e-15);
-        assert_eq!(run.notes(), [Note::SpeedIntegrated]);
+        assert_eq!(run.notes(), [note::SpeedIntegrated {}.into()]);
     }
     fails(
         &PLAIN.replace("unit = \"rad\"", "unit = \"rpm\""),
@@ -170,5 +170,5 @@ fn turns_of_an_absolute_encoder_are_removed() {
     let file = read_logs(&degrees, &[("a.csv", &text)]).unwrap();
     let run = &file.campaign.runs[0];
     assert!((run.motor()[399] - 399.0 * 4.0 * PI / 180.0).abs() < 1e-12);
-    assert_eq!(run.notes(), [Note::TurnsRemoved { count: 4 }]);
+    assert_eq!(run.notes(), [note::TurnsRemoved { count: 4 }.into()]);
 }

@@ -4,7 +4,7 @@ use std::f64::consts::PI;
 use std::fmt::Write as _;
 use std::path::Path;
 
-use lissom_core::record::{Axis, CommandQuantity, Hold, Note, TipQuantity};
+use lissom_core::record::{Axis, CommandQuantity, Hold, TipQuantity, note};
 use proptest::prelude::*;
 use tempfile::TempDir;
 
@@ -113,7 +113,7 @@ fn long_logs_are_thinned_and_it_is_said() {
         .unwrap();
     let run = &file.campaign.runs[0];
     assert_eq!((run.len(), run.sample_time_s()), (250, 0.004));
-    assert_eq!(run.notes(), [Note::Thinned { factor: 4 }]);
+    assert_eq!(run.notes(), [note::Thinned { factor: 4 }.into()]);
     assert_eq!(run.command()[9], 1.5);
     assert_eq!(run.motor()[9], signal(36));
 }

@@ -2,10 +2,11 @@
 
 use std::collections::HashMap;
 
+use lissom_core::finding::Finding;
 use lissom_core::record::clock::{self, ClockError, EvenLog, EvenPart, LogRows};
 use lissom_core::record::{
-    Axis, Campaign, Channels, Command, Hold, Note, RecordError, RestingReadings, Run, Tip,
-    TipQuantity, rest_at_zero, undriven,
+    Axis, Campaign, Channels, Command, Hold, RecordError, RestingReadings, Run, Tip, TipQuantity,
+    note, rest_at_zero, undriven,
 };
 use rayon::prelude::*;
 
@@ -109,34 +110,34 @@ fn load_run(
             })?;
         }
         if let Some(RestingReadings { quantum, count }) = at_rest {
-            run = run.with_note(Note::SpeedAtRest { quantum, count });
+            run = run.with_note(note::SpeedAtRest { quantum, count });
         }
         if index == 0 {
             run = undriven.iter().cloned().fold(run, Run::with_note);
             run = own.iter().cloned().fold(run, Run::with_note);
             if factor > 1 {
-                run = run.with_note(Note::Thinned { factor });
+                run = run.with_note(note::Thinned { factor });
             }
             if let Some((count, share)) = spec.rows_without_run {
-                run = run.with_note(Note::RowsWithoutRun { count, share });
+                run = run.with_note(note::RowsWithoutRun { count, share });
             }
             if spec.trim.skip_s > 0.0 {
-                run = run.with_note(Note::HeadSkipped { seconds: spec.trim.skip_s });
+                run = run.with_note(note::HeadSkipped { seconds: spec.trim.skip_s });
             }
             if !spec.trim.is_head() {
                 let stretches =
                     spec.trim.left_out_s.len() + usize::from(spec.trim.until_s.is_some());
-                run = run.with_note(Note::LeftOut { stretches });
+                run = run.with_note(note::LeftOut { stretches });
             }
             if signals.motor_speed {
-                run = run.with_note(Note::SpeedIntegrated);
+                run = run.with_note(note::SpeedIntegrated {});
             }
             if turns > 0 {
-                run = run.with_note(Note::TurnsRemoved { count: turns });
+                run = run.with_note(note::TurnsRemoved { count: turns });
             }
             if repeated > 0 {
                 let per_reading = 1.0 + repeated as f64 / run.len() as f64;
-                run = run.with_note(Note::RepeatedReadings { per_reading, removed: repeated });
+                run = run.with_note(note::RepeatedReadings { per_reading, removed: repeated });
             }
         }
         runs.push(part.notes.into_iter().fold(run, Run::with_note));
@@ -150,11 +151,11 @@ fn without_undriven(
     parts: Vec<EvenPart>,
     signals: &Signals,
     least: usize,
-) -> (Vec<EvenPart>, Option<Note>) {
+) -> (Vec<EvenPart>, Option<note::Undriven>) {
     if signals.gravity || signals.command.kind == CommandKind::Goal || !signals.tips.is_empty() {
         return (parts, None);
     }
-    let (mut kept, mut note) = (Vec::new(), None);
+    let (mut kept, mut note) = (Vec::new(), None::<note::Undriven>);
     for part in parts {
         let found = undriven(&part.command, &part.motor, signals.motor_speed);
         if found.is_empty() {
@@ -164,11 +165,10 @@ fn without_undriven(
         let sample_s = part.time.sample_time_s;
         for range in &found {
             let (start_s, long_s) = (range.start as f64 * sample_s, range.len() as f64 * sample_s);
-            let (count, at_s, length_s) = match note {
-                Some(Note::Undriven { count, at_s, length_s }) => (count, at_s, length_s),
-                _ => (0, start_s, 0.0),
-            };
-            note = Some(Note::Undriven { count: count + 1, at_s, length_s: length_s + long_s });
+            let first = || note::Undriven { count: 0, at_s: start_s, length_s: 0.0 };
+            let all = note.get_or_insert_with(first);
+            all.count += 1;
+            all.length_s += long_s;
         }
         let ends = found.iter().map(|r| r.start).chain([part.motor.len()]);
         let starts = std::iter::once(0).chain(found.iter().map(|r| r.end));
@@ -235,7 +235,7 @@ fn even_parts(
     (places, spec): (LogPlaces<'_>, &RunSpec),
     options: &ReadOptions,
     file: &str,
-) -> Result<(EvenLog, usize, Vec<Note>), Error> {
+) -> Result<(EvenLog, usize, Vec<Finding>), Error> {
     let stamps_s = stamps_s(&signals.time, &mut log);
     channel_in_range("time", &stamps_s, file)?;
     let (sample_time_s, stamp_step_s) = match &signals.time {
@@ -333,7 +333,7 @@ fn replace_spikes(
     stamps_s: &[f64],
     motor: &mut [f64],
     tips: &mut [Vec<f64>],
-) -> Vec<Note> {
+) -> Vec<Finding> {
     let motor = (!signals.motor_speed).then(|| ("motor".to_owned(), motor));
     let tips = signals.tips.iter().zip(tips).filter_map(|((tip, _), samples)| {
         let is_position = tip.quantity != TipQuantity::Acceleration;
@@ -344,7 +344,7 @@ fn replace_spikes(
         let first = replaced.first()?;
         let at_s = stamps_s.get(first.sample)? - stamps_s.first()?;
         let value = first.value;
-        Some(Note::SpikesReplaced { channel, count: replaced.len(), at_s, value })
+        Some(note::SpikesReplaced { channel, count: replaced.len(), at_s, value }.into())
     };
     motor.into_iter().chain(tips).filter_map(replace).collect()
 }

@@ -2,10 +2,11 @@
 
 use std::path::{Path, PathBuf};
 
+use lissom_core::finding::Finding;
 use lissom_core::record::other_clock::{
     Follows, OtherClock, OtherClockError, StampedSignal, other_clock,
 };
-use lissom_core::record::{Axis, Hold, Note, TipQuantity};
+use lissom_core::record::{Axis, Hold, TipQuantity, note};
 
 use super::campaign_signals::{OwnLog, Signals, TipSource};
 use super::conversions::{camera_angle, channel_in_range, in_si, stamps_s};
@@ -34,7 +35,7 @@ pub(super) struct RunSignals {
     pub(super) command: Vec<f64>,
     pub(super) motor: Vec<f64>,
     pub(super) tips: Vec<Vec<f64>>,
-    pub(super) notes: Vec<Note>,
+    pub(super) notes: Vec<Finding>,
 }
 
 /// A signal of another log.
@@ -246,7 +247,7 @@ impl Own {
 impl RunSignals {
     fn note(&mut self, channel: &str, clock: Option<OtherClock>) {
         let channel = channel.to_owned();
-        self.notes.extend(clock.map(|clock| Note::OtherClock { channel, clock }));
+        self.notes.extend(clock.map(|clock| note::OtherClock { channel, clock }.into()));
     }
 
     /// Leaves out the rows in which a signal of another log is missing.

@@ -3,7 +3,7 @@
 
 use std::f64::consts::TAU;
 
-use lissom_core::record::Note;
+use lissom_core::record::note;
 
 use super::campaign_tests::{PLAIN, log, read_logs};
 
@@ -18,7 +18,7 @@ fn runs_may_have_name_frequency_and_skip() {
     let [first, second] = &file.campaign.runs[..] else { panic!("two runs") };
     assert_eq!((first.name(), first.len()), ("one", 90));
     assert!((first.omega_rad_s().unwrap() - 5.0 * TAU).abs() < 1e-12);
-    assert_eq!(first.notes(), [Note::HeadSkipped { seconds: 0.01 }]);
+    assert_eq!(first.notes(), [note::HeadSkipped { seconds: 0.01 }.into()]);
     assert_eq!(first.time().start_s, 0.01);
     assert_eq!((second.name(), second.len(), second.sample_time_s()), ("b.csv", 90, 0.002));
     assert_eq!(second.omega_rad_s(), Some(3.0));
@@ -33,7 +33,7 @@ fn stretches_of_a_run_may_be_left_out() {
     let runs = read_logs(&format!("{PLAIN}{more}"), &logs).unwrap().campaign.runs;
     let found: Vec<(&str, usize)> = runs.iter().map(|run| (run.name(), run.len())).collect();
     assert_eq!(found, [("a.csv [1/2]", 100), ("a.csv [2/2]", 150)]);
-    assert_eq!(runs[0].notes(), [Note::LeftOut { stretches: 2 }]);
+    assert_eq!(runs[0].notes(), [note::LeftOut { stretches: 2 }.into()]);
     for wrong in ["leave_out = [\"1 s\"]", "leave_out = [[1, 2, 3]]", "leave_out = [[2, 1]]"] {
         let error = read_logs(&format!("{PLAIN}{wrong}\n"), &logs).unwrap_err().to_string();
         assert!(error.contains("a list of stretches"), "{error}");

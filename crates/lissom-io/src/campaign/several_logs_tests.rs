@@ -2,7 +2,8 @@
 
 use std::fmt::Write as _;
 
-use lissom_core::record::{Note, Run};
+use lissom_core::finding::Finding;
+use lissom_core::record::{Run, note};
 
 use super::campaign_tests::{folder, read_logs};
 use super::{CampaignReader, read_campaign};
@@ -83,7 +84,8 @@ fn a_tip_may_have_a_log_and_a_clock_of_its_own() {
     let folder = folder(&campaign, &logs);
     let path = folder.path().join("campaign.toml");
     let run = &read_campaign(&path).unwrap().campaign.runs[0];
-    let [Note::OtherClock { channel, clock }] = run.notes() else { panic!("{:?}", run.notes()) };
+    let [note] = run.notes() else { panic!("{:?}", run.notes()) };
+    let note::OtherClock { channel, clock } = note.get().unwrap();
     assert_eq!(channel, "end");
     assert!((clock.offset_s + 4.0).abs() < 1e-3, "{clock:?}");
     assert!((run.time().start_s - 1.5).abs() < 0.03, "{}", run.time().start_s);
@@ -164,8 +166,8 @@ fn rows_between_runs_are_counted() {
     }
     let all = format!("{HEAD}{MOTOR}run = \"n\"\n[[runs]]\nfile = \"a.csv\"\n");
     let file = read_logs(&all, &[("a.csv", &text)]).unwrap();
-    let notes: Vec<&[Note]> = file.campaign.runs.iter().map(Run::notes).collect();
-    assert_eq!(notes, [&[Note::RowsWithoutRun { count: 200, share: 0.5 }][..], &[]]);
+    let notes: Vec<&[Finding]> = file.campaign.runs.iter().map(Run::notes).collect();
+    assert_eq!(notes, [&[note::RowsWithoutRun { count: 200, share: 0.5 }.into()][..], &[]]);
     // A number may be written in another way.
     let one = format!("{HEAD}{MOTOR}[[runs]]\nfile = \"a.csv::n=2.0\"\n");
     let file = read_logs(&one, &[("a.csv", &text)]).unwrap();

@@ -42,11 +42,11 @@ pub struct EquivalentEntry {
     pub beam: EquivalentBeamEntry,
     /// (18) and (14) as fitted; null without a usable response of the motor.
     pub torque: Option<EquivalentTorqueEntry>,
-    /// (17)-(18) for use as an arm; null if a point is not an angle (finding equivalent-no-angle).
+    /// (17)-(18) for use as an arm; null if a point is not an angle (finding equivalent-gains).
     pub strainless: Option<StrainlessEntry>,
     /// The form for use, from the command to the angles of motor and points, in coordinates of the modes, with their
     /// damping if it is above zero; null without a motor's response, and if a point is not an angle (finding
-    /// equivalent-no-angle).
+    /// equivalent-gains).
     pub state_space: Option<StateSpaceEntry>,
     /// Zeros of every measured point, with the modes of the arm.
     pub zeros: Vec<PointZerosEntry>,

@@ -57,7 +57,7 @@ impl FindingEntry {
                 Severity::Refusal => SeverityName::Refusal,
             },
             run: f.run.clone(),
-            affects: f.affects().into_iter().map(str::to_owned).collect(),
+            affects: f.affects().iter().map(|key| (*key).to_owned()).collect(),
             message: f.message(),
             hint: f.hint().to_owned(),
         }

@@ -1,8 +1,6 @@
 //! Compares the result of a drive with the truth.
 
-use lissom::identify::findings::{
-    Finding, FindingKind, FrictionLawFinding, RegressionFinding, Severity,
-};
+use lissom::identify::findings::{Finding, Severity, rows};
 use lissom::identify::{Estimate, Identified, Method};
 
 use super::drive_campaign::DriveCampaign;
@@ -150,7 +148,7 @@ impl DriveScore {
 /// least-squares line of the true friction, without ripple where the result has ripple as a term.
 ///
 /// Inertia is that of all rotating parts. If the result has a mode that was found in the motion of the motor
-/// (`modes-by-the-motor`), its inertia is that of the motor alone, and is compared with that.
+/// (`hidden-mode`), its inertia is that of the motor alone, and is compared with that.
 pub fn score_drive(campaign: &DriveCampaign, id: &Identified) -> DriveScore {
     let bound = TorqueBound::of(campaign);
     let ripple = id.friction.law.as_ref().is_none_or(|law| law.ripples.is_empty());
@@ -193,7 +191,7 @@ pub fn score_drive(campaign: &DriveCampaign, id: &Identified) -> DriveScore {
     let found = |f: &Finding| FoundCode {
         code: f.code(),
         severity: f.severity(),
-        detail: detail(&f.kind),
+        detail: detail(f),
         message: f.message(),
     };
     DriveScore {
@@ -204,20 +202,15 @@ pub fn score_drive(campaign: &DriveCampaign, id: &Identified) -> DriveScore {
 }
 
 /// The difference between findings with the same code.
-fn detail(kind: &FindingKind) -> String {
+fn detail(finding: &Finding) -> String {
     // The name of a variant, without its numbers.
     let name = |text: String| text.split([' ', '{', '(']).next().unwrap_or_default().to_owned();
-    match kind {
-        FindingKind::Regression(RegressionFinding::MissingTerm { term, .. }) => {
-            name(format!("{:?}", term.kind))
-        }
-        FindingKind::Regression(RegressionFinding::AngleLag { lag }) => {
-            name(format!("{:?}", lag.shape))
-        }
-        FindingKind::FrictionLaw(FrictionLawFinding::FrictionLaw { terms, .. }) => {
-            let names: Vec<String> = terms.iter().map(|(t, _)| name(format!("{t:?}"))).collect();
-            names.join(" + ")
-        }
-        _ => String::new(),
+    if let Some(rows::MissingTerm { term, .. }) = finding.get() {
+        return name(format!("{:?}", term.kind));
     }
+    if let Some(rows::AngleLag { lag }) = finding.get() {
+        return name(format!("{:?}", lag.shape));
+    }
+    let law = finding.get::<rows::FrictionLaw>().map_or(&[][..], |law| &law.terms);
+    law.iter().map(|(term, _)| name(format!("{term:?}"))).collect::<Vec<_>>().join(" + ")
 }

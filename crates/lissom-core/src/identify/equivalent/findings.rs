@@ -7,7 +7,7 @@ use crate::identify::equivalent::thresholds::{
     ERRORS_TOO_LARGE, GIVEN_TO_LAST_MODE, MISFIT, MOTOR_LEFT, MOTOR_WORSE,
 };
 use crate::identify::estimate::Estimate;
-use crate::identify::findings::{EquivalentFinding, EquivalentMotorFinding, Finding, FindingKind};
+use crate::identify::findings::{Finding, rows};
 use crate::identify::responses::correct::Response;
 use crate::identify::responses::rational::Damping;
 use crate::identify::thresholds::CLEARLY_PRESENT;
@@ -35,7 +35,7 @@ fn of_motor(
     data: &EquivalentData,
     whole: &Equivalent,
     arm: &EquivalentArm,
-    findings: &mut Vec<FindingKind>,
+    findings: &mut Vec<Finding>,
 ) {
     let (share, share_of_points) = (left_of_motor(data, arm), whole.relative_residual);
     let known = data.std_source != StdSource::FromResidual;
@@ -44,26 +44,18 @@ fn of_motor(
     } else {
         share > MOTOR_LEFT && share > MOTOR_WORSE * share_of_points
     };
-    if misfit {
-        findings.push(
-            EquivalentMotorFinding::EquivalentMotorMisfit {
-                rms_standard_errors: known.then_some(arm.weighted_rms),
-                share,
-                share_of_points,
-            }
-            .into(),
-        );
+    if misfit && known {
+        let rms_standard_errors = arm.weighted_rms;
+        findings.push(rows::EquivalentMotorMisfit { rms_standard_errors }.into());
+    } else if misfit {
+        findings.push(rows::EquivalentMotorApart { share, share_of_points }.into());
     }
     if let Some(delay_s) = arm.delay_s {
-        findings.push(EquivalentMotorFinding::EquivalentMotorDelay { delay_s }.into());
+        findings.push(rows::EquivalentMotorDelay { delay_s }.into());
     }
     if arm.friction_left.abs() > CLEARLY_PRESENT {
-        findings.push(
-            EquivalentMotorFinding::EquivalentMotorFriction {
-                standard_errors: arm.friction_left.abs(),
-            }
-            .into(),
-        );
+        let standard_errors = arm.friction_left.abs();
+        findings.push(rows::EquivalentMotorFriction { standard_errors }.into());
     }
 }
 
@@ -74,65 +66,59 @@ pub(super) fn findings(
     given: f64,
     no_torque: Option<EquivalentError>,
 ) -> Vec<Finding> {
-    let mut findings: Vec<FindingKind> = Vec::new();
+    let mut findings: Vec<Finding> = Vec::new();
     for (pole, why) in whole.fit.poles.iter().zip(&whole.spurious) {
         let Some(reason) = *why else { continue };
         let omega_rad_s = pole.omega_rad_s;
-        findings.push(EquivalentFinding::EquivalentSpuriousPole { omega_rad_s, reason }.into());
+        findings.push(rows::EquivalentSpuriousPole { omega_rad_s, reason }.into());
     }
     let modes = whole.modes.len();
     if modes < modes_found {
         let (kept, found) = (modes, modes_found);
-        findings.push(EquivalentFinding::EquivalentModesLeftOut { kept, found }.into());
+        findings.push(rows::EquivalentModesLeftOut { kept, found }.into());
     }
     let unused = (0..data.names.len()).filter(|i| !whole.points.contains(i));
     let points: Vec<String> = unused.map(|i| data.names[i].clone()).collect();
     if !points.is_empty() {
-        findings.push(EquivalentFinding::EquivalentPointsLeftOut { modes, points }.into());
+        findings.push(rows::EquivalentPointsLeftOut { modes, points }.into());
     }
     of_phase(whole, &mut findings);
     let rms_standard_errors = whole.fit.weighted_rms;
     let known = data.std_source != StdSource::FromResidual;
     if known && rms_standard_errors > MISFIT {
-        findings.push(EquivalentFinding::EquivalentMisfit { rms_standard_errors }.into());
+        findings.push(rows::EquivalentMisfit { rms_standard_errors }.into());
     } else if data.std_source == StdSource::Measured && rms_standard_errors < ERRORS_TOO_LARGE {
-        findings.push(EquivalentFinding::EquivalentDeviationsLarge { rms_standard_errors }.into());
+        findings.push(rows::EquivalentErrorsLarge { rms_standard_errors }.into());
     }
     if let Some(arm) = &whole.arm {
         of_motor(data, whole, arm, &mut findings);
         let negative = named(arm).into_iter().filter(|(_, estimate)| estimate.is_negative());
         let parameters: Vec<String> = negative.map(|(name, _)| name).collect();
         if !parameters.is_empty() {
-            findings.push(EquivalentMotorFinding::EquivalentImplausible { parameters }.into());
+            findings.push(rows::EquivalentImplausible { parameters }.into());
         }
     }
     if let Some(error) = no_torque {
-        findings.push(EquivalentMotorFinding::EquivalentWithoutTorque { error }.into());
+        findings.push(rows::EquivalentWithoutTorque { error }.into());
     }
     let (missing_gain, change_share) = (given, changed(whole));
     if whole.strainless.is_none() && given > 0.0 {
-        findings.push(EquivalentFinding::EquivalentNoAngle { missing_gain }.into());
+        findings.push(rows::EquivalentNoAngle { missing_gain }.into());
     } else if given > GIVEN_TO_LAST_MODE {
-        findings.push(EquivalentFinding::EquivalentCompleted { missing_gain, change_share }.into());
+        findings.push(rows::EquivalentCompleted { missing_gain, change_share }.into());
     }
-    findings.into_iter().map(Finding::new).collect()
+    findings
 }
 
 /// Adds findings about imaginary parts that the damping of the poles does not explain.
-fn of_phase(whole: &Equivalent, findings: &mut Vec<FindingKind>) {
+fn of_phase(whole: &Equivalent, findings: &mut Vec<Finding>) {
     for part in &whole.imaginary {
         let point = part.name.clone();
-        findings.push(
-            match part.delay_s {
-                None => EquivalentFinding::EquivalentImaginaryPart {
-                    point,
-                    share: part.share,
-                    standard_errors: part.standard_errors,
-                },
-                Some(delay_s) => EquivalentFinding::EquivalentDelay { point, delay_s },
-            }
-            .into(),
-        );
+        let (share, standard_errors) = (part.share, part.standard_errors);
+        findings.push(match part.delay_s {
+            None => rows::EquivalentImaginaryPart { point, share, standard_errors }.into(),
+            Some(delay_s) => rows::EquivalentDelay { point, delay_s }.into(),
+        });
     }
     if whole.fit.damping == Damping::Within {
         let shares = (0..whole.kept.poles.len()).flat_map(|k| {
@@ -141,7 +127,7 @@ fn of_phase(whole: &Equivalent, findings: &mut Vec<FindingKind>) {
         });
         let outputs = 0..whole.fit.static_gains.len();
         findings.push(
-            EquivalentFinding::EquivalentTermsInS {
+            rows::EquivalentTermsInS {
                 largest_share: shares.filter(|s| s.is_finite()).fold(0.0, f64::max),
                 hidden_delay_s: outputs.map(|i| whole.fit.hidden_delay_s(i)).fold(0.0, f64::max),
             }

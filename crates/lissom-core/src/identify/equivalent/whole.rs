@@ -12,7 +12,7 @@ use crate::identify::equivalent::zeros::response_zeros;
 use crate::identify::equivalent::{
     EquivalentError, equivalent_beam, findings, imaginary, standard_errors,
 };
-use crate::identify::findings::{EquivalentFinding, FindingKind};
+use crate::identify::findings::{Finding, rows};
 use crate::identify::responses::correct::Response;
 use crate::identify::responses::rational::{
     MotorData, Pole, SharedPoles, Spurious, fit_shared_poles_with_delays, information,
@@ -158,13 +158,9 @@ impl Equivalent {
             ratio.value < -SIGN_SHOWN * ratio.std
         };
         self.imaginary.iter().any(|part| part.delay_s.is_none())
-            || self.findings.iter().any(|f| is_misfit(&f.kind))
+            || self.findings.iter().any(Finding::is::<rows::EquivalentMisfit>)
             || (0..self.fit.poles.len()).any(below)
     }
-}
-
-fn is_misfit(kind: &FindingKind) -> bool {
-    matches!(kind, FindingKind::Equivalent(EquivalentFinding::EquivalentMisfit { .. }))
 }
 
 /// A pole above the frequencies as the motor's torque has it; `None` where it has none of its own.

@@ -2,12 +2,11 @@
 
 use std::fmt;
 
-use strum::{IntoStaticStr, VariantNames};
+use lissom_text::significant;
 
-use crate::identify::findings::describe::Describe;
-use crate::identify::findings::number_text::{significant, trimmed};
-use crate::identify::findings::result_key as key;
-use crate::identify::findings::severity::Severity;
+use crate::finding::Severity::{Info, Warning};
+use crate::finding::result_key as key;
+use crate::finding::{findings, trimmed};
 
 /// Digits of a reading.
 const DIGITS: usize = 5;
@@ -33,298 +32,103 @@ impl fmt::Display for Channel {
     }
 }
 
-/// Wrong or suspicious readings of one channel.
-#[derive(Debug, Clone, PartialEq, IntoStaticStr, VariantNames)]
-#[strum(serialize_all = "kebab-case")]
-#[non_exhaustive]
-pub enum ChannelFinding {
-    /// The channel is constant.
-    DeadChannel {
-        /// The channel.
-        channel: Channel,
-        /// Its value in this run; `None` if it is constant in every run.
-        value: Option<f64>,
-        /// Unit of that value; empty if it has none.
-        unit: &'static str,
-    },
-    /// A sensor stays at its largest or smallest value.
-    ClippedChannel {
-        /// The channel.
-        channel: Channel,
-        /// Share of the run.
-        share: f64,
-    },
-    /// Single readings are far from their neighbours.
-    Spike {
-        /// The channel.
-        channel: Channel,
-        /// Value of the first one.
-        value: f64,
-        /// Readings before and after it.
-        neighbours: Vec<f64>,
-        /// Time since the run's first sample \[s\].
-        time_s: f64,
-        /// Number of such readings.
-        count: usize,
-        /// Unit of the readings; empty if it is not known.
-        unit: &'static str,
-    },
-    /// Readings jump to another level and stay there.
-    ReadingJumps {
-        /// The channel.
-        channel: Channel,
-        /// Size of the first jump.
-        step: f64,
-        /// Time since the run's first sample \[s\].
-        time_s: f64,
-        /// Number of jumps.
-        count: usize,
-        /// Whether the first jump is a number of whole turns.
-        whole_turns: bool,
-        /// Unit of the readings; empty if it is not known.
-        unit: &'static str,
-    },
-    /// An angle declared in rad has the steps of an encoder in degrees.
-    AngleInDegrees {
-        /// The channel.
-        channel: Channel,
-        /// Resolution of the encoder in bits.
-        bits: i32,
-    },
-    /// A tip channel repeats one value while the motor moves, or the motor channel does while the command changes.
-    FrozenChannel {
-        /// The channel.
-        channel: Channel,
-        /// The repeated value.
-        value: f64,
-        /// Time at which it begins, since the run's first sample \[s\].
-        from_s: f64,
-        /// Time at which it ends \[s\].
-        to_s: f64,
-        /// Unit of the readings; empty if it is not known.
-        unit: &'static str,
-        /// Whether the run is left out.
-        left_out: bool,
-    },
-    /// A tip and the motor read different values when the beam is straight.
-    TipZero {
-        /// The channel.
-        channel: Channel,
-        /// Reading of the tip minus that of the motor, the largest of all runs \[rad or m\].
-        value: f64,
-    },
-    /// The command is limited.
-    Saturation {
-        /// Share of the run.
-        share: f64,
-        /// Whether the limit is given in the campaign; otherwise it is taken from the log.
-        limit_given: bool,
-        /// Whether the command is measured: without a known limit, the sensor may end there.
-        measured: bool,
-    },
-}
-
-impl ChannelFinding {
-    /// Whether it may be the cause of other findings.
-    pub(super) fn is_wrong_reading(&self) -> bool {
-        match self {
-            Self::Spike { .. }
-            | Self::ReadingJumps { .. }
-            | Self::AngleInDegrees { .. }
-            | Self::FrozenChannel { .. } => true,
-            Self::DeadChannel { .. }
-            | Self::ClippedChannel { .. }
-            | Self::TipZero { .. }
-            | Self::Saturation { .. } => false,
-        }
-    }
-}
-
-/// A reading with its unit.
+/// A reading with its unit, which is empty if it is not known.
 fn reading(value: f64, unit: &str) -> String {
     format!("{} {unit}", trimmed(&significant(value, DIGITS))).trim_end().to_owned()
 }
 
-impl fmt::Display for ChannelFinding {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self {
-            Self::DeadChannel { channel, value: None, .. } => {
-                write!(f, "{channel} is constant in every run: it is not used")
-            }
-            Self::DeadChannel { channel, value: Some(value), unit } => {
-                let effect = match channel {
-                    Channel::Motor | Channel::Command => "this run is not used",
-                    Channel::Tip(_) => "the regression does not use this run",
-                };
-                write!(f, "{channel} is constant at {}: {effect}", reading(*value, unit))
-            }
-            Self::ClippedChannel { channel, share } => write!(
-                f,
-                "{channel} stays at its largest or smallest value for {:.1} % of the run: the log does not contain the \
-                 motion beyond it, and estimates from this run are affected",
-                100.0 * share
-            ),
-            Self::Spike { channel, value, neighbours, time_s, count, unit } => {
-                let neighbours: Vec<String> =
-                    neighbours.iter().map(|x| reading(*x, unit)).collect();
-                let others = match count {
-                    1 => String::new(),
-                    n => format!(", the first of {n}"),
-                };
-                write!(
-                    f,
-                    "{channel} has a spike{others}: it reads {} next to {}, {time_s:.4} s after the run's first \
-                     sample. All estimates from this run are affected",
-                    reading(*value, unit),
-                    neighbours.join(" and ")
-                )
-            }
-            Self::ReadingJumps { channel, step, time_s, count, whole_turns, unit } => {
-                let turns = if *whole_turns { " (whole turns)" } else { "" };
-                let others = match count {
-                    1 => String::new(),
-                    n => format!(", the first of {n} such jumps"),
-                };
-                write!(
-                    f,
-                    "{channel} jumps by {}{turns} from one sample to the next, {time_s:.4} s after the run's first \
-                     sample{others}. All estimates from this run are affected",
-                    reading(*step, unit)
-                )
-            }
-            Self::AngleInDegrees { channel, bits } => write!(
-                f,
-                "{channel} is declared in rad, but it has steps of 360/2^{bits}, like an encoder of {bits} bits in degrees. \
-                 If the readings are in degrees, estimates are wrong by a factor of 57.3 or a power of it"
-            ),
-            Self::FrozenChannel { channel, value, from_s, to_s, unit, left_out } => write!(
-                f,
-                "{channel} is frozen: it reads {} from {from_s:.4} s to {to_s:.4} s after the run's first sample while {}. {}",
-                reading(*value, unit),
-                if *channel == Channel::Motor {
-                    "the command changes (the axis may also have reached a stop)"
-                } else {
-                    "the motor moves"
-                },
-                if *left_out {
-                    "The run is left out"
-                } else {
-                    "All estimates from this run are affected"
-                }
-            ),
-            Self::TipZero { channel, value } => write!(
-                f,
-                "{channel} has a zero error: it reads {} relative to the motor when the beam is straight (largest of all \
-                 runs). The error is subtracted in each run",
-                reading(*value, "")
-            ),
-            Self::Saturation { share, limit_given: false, measured: true } => write!(
-                f,
-                "the measured command stays at its largest value for {:.1} % of the run: if the sensor ends there and the \
-                 drive does not, torque is missing and all estimates are wrong",
-                100.0 * share
-            ),
-            Self::Saturation { share, limit_given, .. } => write!(
-                f,
-                "the command {} for {:.1} % of the run: the limit adds harmonics, which the third-harmonic method and the \
-                 corrected response take for friction",
-                if *limit_given { "is at its limit" } else { "stays at its largest value" },
-                100.0 * share
-            ),
-        }
-    }
+/// `, the first of 3 jumps`.
+fn first_of(count: usize, more: &str) -> String {
+    if count == 1 { String::new() } else { format!(", the first of {count}{more}") }
 }
 
-impl Describe for ChannelFinding {
-    fn code(&self) -> &'static str {
-        self.into()
-    }
+findings! {
+    /// The channel of a tip is constant in every run.
+    "dead-channel" DeadTip { channel: Channel }
+        Warning, [key::COUPLING, key::MODES, key::INERTIA],
+        format!("{channel} is constant in every run: it is not used"),
+        "check the sensor; if the beam is flexible, estimates without a tip are rough";
 
-    fn severity(&self) -> Severity {
-        match self {
-            Self::TipZero { .. } => Severity::Info,
-            _ => Severity::Warning,
-        }
-    }
+    /// The channel is constant in this run.
+    "dead-channel" DeadChannel { channel: Channel, value: f64, unit: &'static str }
+        Warning,
+        if matches!(channel, Channel::Tip(_)) { &[key::COUPLING, key::MODES] } else { key::LINE },
+        format!("{channel} is constant at {}: {}", reading(*value, unit), match channel {
+            Channel::Tip(_) => "the regression does not use this run",
+            _ => "this run is not used",
+        }),
+        match channel {
+            Channel::Tip(_) => "check the sensor; without its readings the beam cannot be identified",
+            _ => "check the wiring and the column that is given in the campaign",
+        };
 
-    fn affects(&self) -> Vec<&'static str> {
-        match self {
-            Self::DeadChannel { channel: Channel::Motor | Channel::Command, .. } => {
-                vec![key::COULOMB, key::VISCOUS, key::INERTIA]
-            }
-            Self::DeadChannel { value: None, .. } => vec![key::COUPLING, key::MODES, key::INERTIA],
-            Self::DeadChannel { .. } => vec![key::COUPLING, key::MODES],
-            Self::ClippedChannel { .. } => {
-                vec![key::COULOMB, key::VISCOUS, key::INERTIA, key::TIP_RESPONSES]
-            }
-            Self::FrozenChannel { left_out: true, .. } | Self::TipZero { .. } => Vec::new(),
-            Self::Spike { .. }
-            | Self::ReadingJumps { .. }
-            | Self::AngleInDegrees { .. }
-            | Self::FrozenChannel { .. } => vec![
-                key::COULOMB,
-                key::VISCOUS,
-                key::INERTIA,
-                key::COUPLING,
-                key::MODES,
-                key::TIP_RESPONSES,
-            ],
-            Self::Saturation { limit_given: false, measured: true, .. } => vec![
-                key::COULOMB,
-                key::OFFSET,
-                key::VISCOUS,
-                key::INERTIA,
-                key::GRAVITY,
-                key::COUPLING,
-                key::THIRD_HARMONIC,
-                key::CORRECTED_RESPONSE,
-            ],
-            Self::Saturation { .. } => vec![key::THIRD_HARMONIC, key::CORRECTED_RESPONSE],
-        }
-    }
+    /// A sensor stays at its largest or smallest value.
+    "clipped-channel" ClippedChannel { channel: Channel, share: f64 }
+        Warning, [key::COULOMB, key::VISCOUS, key::INERTIA, key::TIP_RESPONSES],
+        format!("{channel} stays at its largest or smallest value for {:.1} % of the run: the log does not contain the \
+            motion beyond it, and estimates from this run are affected", 100.0 * share),
+        "use a smaller amplitude: the range of the sensor or the travel of the axis ends there";
 
-    fn hint(&self) -> &'static str {
-        match self {
-            Self::DeadChannel { channel: Channel::Motor | Channel::Command, .. } => {
-                "check the wiring and the column that is given in the campaign"
-            }
-            Self::DeadChannel { value: None, .. } => {
-                "check the sensor; if the beam is flexible, estimates without a tip are rough"
-            }
-            Self::DeadChannel { .. } => {
-                "check the sensor; without its readings the beam cannot be identified"
-            }
-            Self::ClippedChannel { .. } => {
-                "use a smaller amplitude: the range of the sensor or the travel of the axis ends there"
-            }
-            Self::Spike { .. } => {
-                "the cause is a wrong reading or a lost count: replace it by the mean of its neighbours, or leave that \
-                 part of the log out (skip)"
-            }
-            Self::ReadingJumps { whole_turns: true, .. } => {
-                "the sensor wraps around: unwrap the angle before the identification"
-            }
-            Self::ReadingJumps { .. } => {
-                "the cause is lost counts, a sensor that wraps around, or missing samples: subtract the jump from the \
-                 samples after it, or leave that part of the log out (skip)"
-            }
-            Self::AngleInDegrees { .. } => {
-                "if the readings are in degrees, set unit = \"deg\" for this channel in the campaign"
-            }
-            Self::FrozenChannel { .. } => {
-                "the cause is a lost connection, or a logger that repeats its last value: leave that part of the log out \
-                 (skip, or cut the log)"
-            }
-            Self::TipZero { .. } => {
-                "nothing to do; if a constant load bends the beam, its torque is now part of the offset"
-            }
-            Self::Saturation { limit_given: false, measured: true, .. } => {
-                "if the amplifier is limited there, state it as `limit` in [drive]; if the sensor is, use a smaller amplitude \
-                 or a larger range"
-            }
-            Self::Saturation { .. } => {
-                "use a smaller amplitude, or a frequency farther from the resonance"
-            }
-        }
-    }
+    /// Single readings are far from their neighbours.
+    "wrong-readings" Spike { channel: Channel, value: f64, neighbours: Vec<f64>, time_s: f64, count: usize, unit: &'static str }
+        Warning, key::READINGS,
+        format!("{channel} has a spike{}: it reads {} next to {}, {time_s:.4} s after the run's first sample. All estimates \
+            from this run are affected", first_of(*count, ""), reading(*value, unit),
+            neighbours.iter().map(|x| reading(*x, unit)).collect::<Vec<_>>().join(" and ")),
+        "the cause is a wrong reading or a lost count: replace it by the mean of its neighbours, or leave that part of the \
+            log out (skip)";
+
+    /// Readings jump to another level and stay there.
+    "wrong-readings" ReadingJumps { channel: Channel, step: f64, time_s: f64, count: usize, whole_turns: bool, unit: &'static str }
+        Warning, key::READINGS,
+        format!("{channel} jumps by {}{} from one sample to the next, {time_s:.4} s after the run's first sample{}. All \
+            estimates from this run are affected", reading(*step, unit), if *whole_turns { " (whole turns)" } else { "" },
+            first_of(*count, " such jumps")),
+        if *whole_turns {
+            "the sensor wraps around: unwrap the angle before the identification"
+        } else {
+            "the cause is lost counts, a sensor that wraps around, or missing samples: subtract the jump from the samples \
+                after it, or leave that part of the log out (skip)"
+        };
+
+    /// An angle declared in rad has the steps of an encoder in degrees.
+    "angle-in-degrees" AngleInDegrees { channel: Channel, bits: i32 }
+        Warning, key::READINGS,
+        format!("{channel} is declared in rad, but it has steps of 360/2^{bits}, like an encoder of {bits} bits in degrees. \
+            If the readings are in degrees, estimates are wrong by a factor of 57.3 or a power of it"),
+        "if the readings are in degrees, set unit = \"deg\" for this channel in the campaign";
+
+    /// A tip channel repeats one value while the motor moves, or the motor channel does while the command changes.
+    "frozen-channel" FrozenChannel { channel: Channel, value: f64, from_s: f64, to_s: f64, unit: &'static str, left_out: bool }
+        Warning, if *left_out { &[] } else { key::READINGS },
+        format!("{channel} is frozen: it reads {} from {from_s:.4} s to {to_s:.4} s after the run's first sample while {}. {}",
+            reading(*value, unit), match channel {
+                Channel::Motor => "the command changes (the axis may also have reached a stop)",
+                _ => "the motor moves",
+            }, if *left_out { "The run is left out" } else { "All estimates from this run are affected" }),
+        "the cause is a lost connection, or a logger that repeats its last value: leave that part of the log out (skip, or \
+            cut the log)";
+
+    /// A tip and the motor read different values when the beam is straight.
+    "readings-corrected" TipZero { channel: Channel, value: f64 }
+        Info, [],
+        format!("{channel} has a zero error: it reads {} relative to the motor when the beam is straight (largest of all \
+            runs). The error is subtracted in each run", reading(*value, "")),
+        "nothing to do; if a constant load bends the beam, its torque is now part of the offset";
+
+    /// A measured command stays at its largest value: the sensor may end there.
+    "saturation" SensorEnds { share: f64 }
+        Warning, [key::JOINT, &[key::THIRD_HARMONIC, key::CORRECTED_RESPONSE]].concat(),
+        format!("the measured command stays at its largest value for {:.1} % of the run: if the sensor ends there and the \
+            drive does not, torque is missing and all estimates are wrong", 100.0 * share),
+        "if the amplifier is limited there, state it as `limit` in [drive]; if the sensor is, use a smaller amplitude or a \
+            larger range";
+
+    /// The command is limited.
+    "saturation" Saturation { share: f64, limit_given: bool }
+        Warning, [key::THIRD_HARMONIC, key::CORRECTED_RESPONSE],
+        format!("the command {} for {:.1} % of the run: the limit adds harmonics, which the third-harmonic method and the \
+            corrected response take for friction",
+            if *limit_given { "is at its limit" } else { "stays at its largest value" }, 100.0 * share),
+        "use a smaller amplitude, or a frequency farther from the resonance";
 }

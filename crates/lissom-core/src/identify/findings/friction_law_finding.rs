@@ -1,14 +1,11 @@
 //! Friction with more terms than Coulomb friction plus one viscous constant.
 
-use std::fmt;
+use lissom_text::significant;
 
-use strum::{IntoStaticStr, VariantNames};
-
+use crate::finding::Severity::{Info, Warning};
+use crate::finding::findings;
+use crate::finding::result_key as key;
 use crate::identify::estimate::Estimate;
-use crate::identify::findings::describe::Describe;
-use crate::identify::findings::number_text::significant;
-use crate::identify::findings::result_key as key;
-use crate::identify::findings::severity::Severity;
 use crate::identify::findings::units::EstimateUnits;
 use crate::identify::methods::friction_law::LawTerm;
 
@@ -41,22 +38,6 @@ pub struct BetterLaw {
     pub residual_ratio: f64,
     /// Improvement for slip phases that are left out of the fit, in standard errors, at least.
     pub standard_errors: f64,
-}
-
-/// Friction with more terms than Coulomb friction plus one viscous constant.
-#[derive(Debug, Clone, PartialEq, IntoStaticStr, VariantNames)]
-#[strum(serialize_all = "kebab-case")]
-#[non_exhaustive]
-pub enum FrictionLawFinding {
-    /// Friction has further terms.
-    FrictionLaw {
-        /// The terms with their amplitudes.
-        terms: Vec<(LawTerm, Vec<Estimate>)>,
-        /// The method that gives the law.
-        source: LawSource,
-        /// Units of the amplitudes.
-        units: EstimateUnits,
-    },
 }
 
 /// Terms of friction with their amplitudes.
@@ -117,99 +98,71 @@ fn term_in_words(
     })
 }
 
-impl fmt::Display for FrictionLawFinding {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let Self::FrictionLaw { terms, source, units } = self;
-        if matches!(source, LawSource::SlipPhases { replayed_without: true, .. }) {
-            f.write_str("according to the slip phases alone, ")?;
+/// What a law is worth that slip phases or the output-error method gave, in words.
+fn worth(source: LawSource) -> String {
+    let (replayed_without, better, left_over) = match source {
+        LawSource::OutputError { whole_runs } => {
+            let runs = if whole_runs { "from beginning to end" } else { "over short windows only" };
+            return format!("With this law the output-error method describes the runs {runs}");
         }
-        write!(
-            f,
-            "friction is not Coulomb friction plus one viscous constant: {}. ",
-            in_words(terms, *units)
-        )?;
-        match *source {
-            LawSource::OutputError { whole_runs, .. } => write!(
-                f,
-                "With this law the output-error method describes {}",
-                if whole_runs {
-                    "the runs from beginning to end"
-                } else {
-                    "the runs over short windows only"
-                }
-            ),
-            LawSource::SlipPhases { replayed_without, better, left_over } => {
-                if let Some(BetterLaw { residual_ratio, standard_errors }) = better {
-                    write!(
-                        f,
-                        "With this law the residual torque is {residual_ratio:.2} times as large, and slip phases left out of the fit are \
-                         described better by {standard_errors:.0} standard errors or more. "
-                    )?;
-                }
-                f.write_str(if replayed_without {
-                    "The output-error method describes the runs without these terms"
-                } else {
-                    "The estimates come from the fit with this law"
-                })?;
-                let Some(share) = left_over.filter(|_| !replayed_without) else { return Ok(()) };
-                write!(
-                    f,
-                    ". It leaves {:.0} % of the torque unexplained, more than noise: the terms of friction may stand for \
-                     another effect",
-                    100.0 * share
-                )
-            }
+        LawSource::SlipPhases { replayed_without, better, left_over } => {
+            (replayed_without, better, left_over)
+        }
+    };
+    let better = better.map_or_else(String::new, |BetterLaw { residual_ratio, standard_errors }| {
+        format!(
+            "With this law the residual torque is {residual_ratio:.2} times as large, and slip phases left out of the fit are \
+             described better by {standard_errors:.0} standard errors or more. "
+        )
+    });
+    match left_over {
+        _ if replayed_without => {
+            format!("{better}The output-error method describes the runs without these terms")
+        }
+        None => format!("{better}The estimates come from the fit with this law"),
+        Some(share) => format!(
+            "{better}The estimates come from the fit with this law. It leaves {:.0} % of the torque unexplained, more than \
+             noise: the terms of friction may stand for another effect",
+            100.0 * share
+        ),
+    }
+}
+
+/// What to do about a law.
+fn hint(terms: &[(LawTerm, Vec<Estimate>)], source: LawSource) -> &'static str {
+    let with_load = |(term, _): &(LawTerm, Vec<Estimate>)| {
+        matches!(term, LawTerm::WithLoad { .. } | LawTerm::CommandLag)
+    };
+    match source {
+        LawSource::SlipPhases { replayed_without: true, .. } => {
+            "nothing to do: the estimates are those of the output-error method"
+        }
+        LawSource::SlipPhases { left_over: Some(_), .. } => {
+            "look for a flexible part, a load or a wrong channel; compare with the line of least squares"
+        }
+        LawSource::SlipPhases { .. } if terms.iter().all(with_load) => {
+            "Coulomb friction is that under the mean load of the log; the law has that without load, to which the factor \
+             in the message times the torque of gravity is added"
+        }
+        LawSource::OutputError { .. } | LawSource::SlipPhases { .. } => {
+            "Coulomb and viscous friction are valid at speed, not near standstill: use the friction curve at the speed \
+             of interest; runs at other speeds show whether the law is valid there"
         }
     }
 }
 
-impl FrictionLawFinding {
-    fn grows_with_load_alone(&self) -> bool {
-        let Self::FrictionLaw { terms, .. } = self;
-        let alone = |(term, _): &(LawTerm, Vec<Estimate>)| {
-            matches!(term, LawTerm::WithLoad { .. } | LawTerm::CommandLag)
-        };
-        terms.iter().all(alone)
-    }
-
-    /// Whether the law, from which the estimates come, leaves much of the torque.
-    fn leaves_much(&self) -> bool {
-        let Self::FrictionLaw { source, .. } = self;
-        matches!(source, LawSource::SlipPhases { replayed_without: false, left_over: Some(_), .. })
-    }
-}
-
-impl Describe for FrictionLawFinding {
-    fn code(&self) -> &'static str {
-        self.into()
-    }
-
-    fn severity(&self) -> Severity {
-        // The estimates are those of the law.
-        if self.leaves_much() { Severity::Warning } else { Severity::Info }
-    }
-
-    fn affects(&self) -> Vec<&'static str> {
-        vec![key::COULOMB, key::VISCOUS]
-    }
-
-    fn hint(&self) -> &'static str {
-        let Self::FrictionLaw { source, .. } = self;
+findings! {
+    /// Friction has further terms.
+    "friction-law" FrictionLaw { terms: Vec<(LawTerm, Vec<Estimate>)>, source: LawSource, units: EstimateUnits }
         match source {
-            LawSource::SlipPhases { replayed_without: true, .. } => {
-                "nothing to do: the estimates are those of the output-error method"
-            }
-            LawSource::SlipPhases { .. } if self.leaves_much() => {
-                "look for a flexible part, a load or a wrong channel; compare with the line of least squares"
-            }
-            LawSource::SlipPhases { .. } if self.grows_with_load_alone() => {
-                "Coulomb friction is that under the mean load of the log; the law has that without load, to which the factor \
-                 in the message times the torque of gravity is added"
-            }
-            LawSource::OutputError { .. } | LawSource::SlipPhases { .. } => {
-                "Coulomb and viscous friction are valid at speed, not near standstill: use the friction curve at the speed \
-                 of interest; runs at other speeds show whether the law is valid there"
-            }
-        }
-    }
+            // The estimates are those of the law.
+            LawSource::SlipPhases { replayed_without: false, left_over: Some(_), .. } => Warning,
+            _ => Info,
+        },
+        [key::COULOMB, key::VISCOUS],
+        format!("{}friction is not Coulomb friction plus one viscous constant: {}. {}", match source {
+            LawSource::SlipPhases { replayed_without: true, .. } => "according to the slip phases alone, ",
+            _ => "",
+        }, in_words(terms, *units), worth(*source)),
+        hint(terms, *source);
 }

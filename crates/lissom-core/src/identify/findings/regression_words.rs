@@ -1,13 +1,13 @@
 //! Findings of the regression in words: missing terms, a mode, an assumed hold, and the estimates that they move.
 
-use crate::identify::findings::number_text::significant;
-use crate::identify::findings::result_key as key;
+use lissom_text::significant;
+
+use crate::finding::result_key as key;
 use crate::identify::findings::units::EstimateUnits;
 use crate::identify::methods::friction_law::{
     LawTerm, MissingKind, MissingTerm, ModelTerm, Moved, MovingTerm,
 };
 use crate::identify::methods::regression::{HiddenMode, OtherHold};
-use crate::record::Hold;
 
 /// Digits of a coefficient whose standard error is not given.
 pub(super) const DIGITS: usize = 3;
@@ -72,23 +72,8 @@ pub(super) fn moved_by_hold(
     changes.collect()
 }
 
-/// That the hold is assumed, and the estimates that depend on it, in words.
-pub(super) fn hold_assumed(other: &OtherHold, units: EstimateUnits) -> String {
-    let changes: Vec<String> =
-        moved_by_hold(other, units).into_iter().map(|(_, change)| change).collect();
-    let (taken, if_it_is) = match other.taken {
-        Hold::Measured => ("measured by a sensor", "held"),
-        Hold::Sampled => ("held", "measured by a sensor"),
-    };
-    format!(
-        "it is not known whether the command is held between its samples; it is taken as {taken}. If it is {if_it_is}, the \
-         regression gives other estimates: {}",
-        changes.join(", ")
-    )
-}
-
 /// Names, result keys and relative changes of the estimates that a term changes by more than their standard errors.
-pub(super) fn moved(moves: &[Moved; 3]) -> Vec<(&'static str, &'static str, f64)> {
+fn moved(moves: &[Moved; 3]) -> Vec<(&'static str, &'static str, f64)> {
     let names = [
         ("inertia", key::INERTIA),
         ("viscous friction", key::VISCOUS),
@@ -97,6 +82,11 @@ pub(super) fn moved(moves: &[Moved; 3]) -> Vec<(&'static str, &'static str, f64)
     let felt = names.into_iter().zip(moves);
     let felt = felt.filter(|(_, moved)| moved.standard_errors.abs() > FELT);
     felt.map(|((name, key), moved)| (name, key, moved.share)).collect()
+}
+
+/// Result keys of these estimates.
+pub(super) fn moved_keys(moves: &[Moved; 3]) -> Vec<&'static str> {
+    moved(moves).into_iter().map(|(_, key, _)| key).collect()
 }
 
 /// Relative changes of estimates, in words; `None` if there are none.
@@ -118,7 +108,7 @@ pub(super) fn moved_by(term: &MissingTerm) -> String {
 }
 
 /// A term that is not known to be absent, and what it would change, in words.
-pub(super) fn possible(term: &MovingTerm) -> String {
+pub(super) fn possible(term: &MovingTerm) -> (&'static str, String) {
     let named = match term.term {
         ModelTerm::Law(LawTerm::ViscousByDirection) => "viscous friction that differs by direction",
         ModelTerm::Law(LawTerm::CommandLag) => "a lag between command and angle",
@@ -139,11 +129,7 @@ pub(super) fn possible(term: &MovingTerm) -> String {
         ModelTerm::Missing(MissingKind::ViscousDrift) => "viscous friction that drifts",
     };
     let changes = changed(moved(&term.moves).into_iter().map(|(name, _, share)| (name, share)));
-    format!(
-        "these logs hardly tell {named} from the rest: the model does not contain it, and if it were there, estimates would \
-         change ({}). Their standard errors count this",
-        changes.unwrap_or_default()
-    )
+    (named, changes.unwrap_or_default())
 }
 
 /// The changes of the estimates if the mode were left out, in words.

@@ -2,7 +2,7 @@
 
 use crate::identify::drive_estimates::{DriveEstimates, Method};
 use crate::identify::estimate::{Estimate, ModeEstimate};
-use crate::identify::findings::{BeamFinding, Finding};
+use crate::identify::findings::{Finding, rows};
 use crate::identify::identified::BeamEstimates;
 use crate::identify::judge::evidence::{Chosen, Evidence};
 use crate::identify::judge::thresholds::MODEL_MISFIT;
@@ -100,7 +100,7 @@ pub(super) fn findings(evidence: &Evidence<'_>, beam: &BeamEstimates) -> Vec<Fin
         return found;
     }
     if beam.modes.is_empty() && tips > 0 && !evidence.rests_on_constant_velocities() {
-        found.push(Finding::new(BeamFinding::ModesNotFound));
+        found.push(Finding::new(rows::ModesNotFound {}));
     }
     let model = evidence.methods.motor_model.as_ref();
     // Noise and varying friction bend the response as well; the regression finds a mode itself.
@@ -110,7 +110,7 @@ pub(super) fn findings(evidence: &Evidence<'_>, beam: &BeamEstimates) -> Vec<Fin
         && let Some(pole) = model.poles.first()
     {
         let omega_rad_s = pole.omega_rad_s;
-        found.push(Finding::new(BeamFinding::FlexibleWithoutTip { omega_rad_s }));
+        found.push(Finding::new(rows::FlexibleWithoutTip { omega_rad_s }));
     }
     found
 }
@@ -119,7 +119,7 @@ pub(super) fn findings(evidence: &Evidence<'_>, beam: &BeamEstimates) -> Vec<Fin
 fn negative_damping((i, mode): (usize, &ModeEstimate)) -> Option<Finding> {
     let negative = mode.given_damping_ratio().is_none();
     let ratio = mode.damping_ratio;
-    negative.then(|| Finding::new(BeamFinding::NegativeDamping { mode: i + 1, ratio }))
+    negative.then(|| Finding::new(rows::NegativeDamping { mode: i + 1, ratio }))
 }
 
 #[cfg(test)]
@@ -216,6 +216,6 @@ mod tests {
         let beam = choose(&evidence, &DriveEstimates::default());
         assert!(beam.modes[0].given_damping_ratio().is_none());
         let found = findings(&evidence, &beam);
-        assert!(found.iter().any(|f| f.code() == "negative-damping"), "{found:?}");
+        assert!(found.iter().any(Finding::is::<rows::NegativeDamping>), "{found:?}");
     }
 }

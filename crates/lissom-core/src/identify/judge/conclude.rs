@@ -1,7 +1,7 @@
 //! From the methods' solutions to the estimates of the result and the findings about them.
 
 use crate::identify::drive_estimates::{DriveEstimates, Method};
-use crate::identify::findings::{EstimateFinding, Finding};
+use crate::identify::findings::{Finding, is_cause, rank, rows};
 use crate::identify::found_arm::FoundArm;
 use crate::identify::judge::evidence::{Chosen, Evidence};
 use crate::identify::judge::{beam_choice, drive_table, remarks, unknown};
@@ -20,7 +20,7 @@ pub(crate) struct Conclusion {
 /// `findings` are those about the runs.
 pub(crate) fn conclude(evidence: &Evidence<'_>, mut findings: Vec<Finding>) -> Conclusion {
     let reversed = reversed_command(evidence);
-    findings.extend(reversed.then(|| Finding::new(EstimateFinding::CommandSign)));
+    findings.extend(reversed.then(|| Finding::new(rows::CommandSign {})));
     findings.extend(output_error::findings(evidence));
     let mut chosen = Chosen::of(evidence, drive_table::choose(evidence));
     let refused = if reversed {
@@ -59,11 +59,11 @@ pub(crate) fn conclude(evidence: &Evidence<'_>, mut findings: Vec<Finding>) -> C
     let left = arm.as_ref().filter(|arm| !arm.holds()).and_then(|arm| arm.torque_used);
     findings.extend(left.map(|left| {
         let residual_share = left.relative_error;
-        Finding::new(EstimateFinding::ArmNotGiven { residual_share })
+        Finding::new(rows::ArmNotGiven { residual_share })
     }));
     let arm = arm.filter(FoundArm::holds);
     // A cause comes before what follows from it.
-    let order = |f: &Finding| (!f.kind.is_cause(), std::cmp::Reverse(f.severity()), f.kind.rank());
+    let order = |f: &Finding| (!is_cause(f), std::cmp::Reverse(f.severity()), rank(f));
     findings.sort_by_key(order);
     Conclusion { chosen, separability, arm, findings }
 }

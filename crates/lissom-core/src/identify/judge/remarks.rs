@@ -2,10 +2,7 @@
 
 use crate::identify::drive_estimates::Method;
 use crate::identify::estimate::Estimate;
-use crate::identify::findings::{
-    BeamFinding, EstimateFinding, EstimateUnits, Finding, FrictionSign, OtherMethod,
-    ResponseFinding,
-};
+use crate::identify::findings::{EstimateUnits, Finding, rows};
 use crate::identify::judge::beam_choice::complete;
 use crate::identify::judge::evidence::{Chosen, Evidence};
 use crate::identify::judge::thresholds::{
@@ -36,11 +33,11 @@ pub(super) fn of_friction(evidence: &Evidence<'_>, chosen: &Chosen) -> Vec<Findi
 fn command(evidence: &Evidence<'_>, findings: &mut Vec<Finding>) {
     let command = &evidence.campaign.channels.command;
     if command.torque_per_command.is_none() {
-        findings.push(Finding::new(EstimateFinding::PerUnitOfCommand));
+        findings.push(Finding::new(rows::PerUnitOfCommand {}));
     }
     let commanded = command.hold == Hold::Sampled && command.quantity != CommandQuantity::Current;
     if commanded {
-        findings.push(Finding::new(EstimateFinding::CommandNotMeasured));
+        findings.push(Finding::new(rows::CommandNotMeasured {}));
     }
 }
 
@@ -58,11 +55,11 @@ fn friction(evidence: &Evidence<'_>, chosen: &Chosen, findings: &mut Vec<Finding
         let (odd, even) = (size(3) + size(5), size(2) + size(4));
         let certain = s.command.get(3).is_some_and(|p| p.value.norm() > PRESENT * p.std);
         if certain && odd > ODD_HARMONICS * even {
-            shown = Some(FrictionSign::OddHarmonics {
+            shown = Some(Finding::new(rows::OddHarmonics {
                 run: run.name.clone(),
                 third_share: size(3) / size(1).max(f64::MIN_POSITIVE),
                 odd_over_even: odd / even.max(f64::MIN_POSITIVE),
-            });
+            }));
             break;
         }
     }
@@ -70,11 +67,9 @@ fn friction(evidence: &Evidence<'_>, chosen: &Chosen, findings: &mut Vec<Finding
         && let Some(c) = torque_jump(evidence)
         && c.ci95()[0] > 0.0
     {
-        shown = Some(FrictionSign::TorqueJump { standard_errors: c.value / c.std });
+        shown = Some(rows::TorqueJump { standard_errors: c.value / c.std }.into());
     }
-    if let Some(sign) = shown {
-        findings.push(Finding::new(EstimateFinding::FrictionVisible { sign }));
-    }
+    findings.extend(shown);
     if let Some(offset) = chosen.drive.friction.offset
         && offset.value.abs() > PRESENT * offset.std
         && let Some(c) = chosen.drive.friction.coulomb
@@ -82,7 +77,7 @@ fn friction(evidence: &Evidence<'_>, chosen: &Chosen, findings: &mut Vec<Finding
     {
         let units = EstimateUnits::new(&evidence.campaign.channels);
         let share = offset.value / c.value;
-        findings.push(Finding::new(EstimateFinding::Offset { offset, units, share }));
+        findings.push(Finding::new(rows::Offset { offset, units, share }));
     }
 }
 
@@ -94,7 +89,7 @@ fn model(evidence: &Evidence<'_>, findings: &mut Vec<Finding>) {
         && m.weighted_rms > MODEL_MISFIT
     {
         let rms_standard_errors = m.weighted_rms;
-        findings.push(Finding::new(ResponseFinding::ModelMisfit { rms_standard_errors }));
+        findings.push(Finding::new(rows::ModelMisfit { rms_standard_errors }));
     }
 }
 
@@ -104,18 +99,21 @@ fn methods(evidence: &Evidence<'_>, chosen: &Chosen, findings: &mut Vec<Finding>
         evidence.methods.third_harmonic.as_ref().map(|t| t.coulomb_command.scaled(constant));
     let classical = evidence.methods.constant_velocity.as_ref().and_then(|c| c.coulomb);
     let taken = chosen.drive.friction.coulomb;
-    let others = [(third, OtherMethod::ThirdHarmonic), (classical, OtherMethod::ConstantVelocity)];
-    for (other, method) in others {
-        let (Some(other), Some(taken)) = (other, taken) else { continue };
-        let difference_share = other.value / taken.value - 1.0;
-        if difference_share.abs() > METHODS_DISAGREE {
-            let found = EstimateFinding::MethodsDisagree { method, difference_share };
-            findings.push(Finding::new(found));
-        }
-    }
+    let apart = |other: Option<Estimate>| {
+        let difference_share = other?.value / taken?.value - 1.0;
+        (difference_share.abs() > METHODS_DISAGREE).then_some(difference_share)
+    };
+    findings.extend(
+        apart(third).map(|difference_share| {
+            Finding::new(rows::ThirdHarmonicDisagrees { difference_share })
+        }),
+    );
+    findings.extend(apart(classical).map(|difference_share| {
+        Finding::new(rows::ConstantVelocityDisagrees { difference_share })
+    }));
     let sinusoidal = evidence.runs.iter().any(|r| matches!(r.kind, RunKind::Sinusoidal(_)));
     if third.is_none() && sinusoidal {
-        findings.push(Finding::new(EstimateFinding::NoPairs));
+        findings.push(Finding::new(rows::NoPairs {}));
     }
 }
 
@@ -130,7 +128,7 @@ fn tips(evidence: &Evidence<'_>, chosen: &Chosen, findings: &mut Vec<Finding>) {
     for tip in &campaign.channels.tips {
         let acceleration = tip.quantity == TipQuantity::Acceleration;
         if acceleration || !tip.calibrated {
-            findings.push(Finding::new(BeamFinding::TipWithoutAngle {
+            findings.push(Finding::new(rows::TipWithoutAngle {
                 tip: tip.name.clone(),
                 acceleration,
                 inertia_with_beam: rigid,
@@ -143,6 +141,6 @@ fn tips(evidence: &Evidence<'_>, chosen: &Chosen, findings: &mut Vec<Finding>) {
         && evidence.methods.regression.as_ref().is_some_and(|r| !r.coupling.is_empty())
     {
         let (modes, tips) = (model.modes.len(), campaign.channels.tips.len());
-        findings.push(Finding::new(BeamFinding::MoreModesThanTips { modes, tips }));
+        findings.push(Finding::new(rows::MoreModesThanTips { modes, tips }));
     }
 }

@@ -2,7 +2,7 @@
 
 use crate::identify::drive_estimates::Method;
 use crate::identify::estimate::Estimate;
-use crate::identify::findings::{EstimateFinding, EstimateUnits, Finding, JudgedParameter};
+use crate::identify::findings::{EstimateUnits, Finding, JudgedParameter, rows};
 use crate::identify::judge::drive_table;
 use crate::identify::judge::evidence::{Chosen, Evidence};
 use crate::identify::judge::thresholds::UNCERTAIN_ERROR;
@@ -21,7 +21,7 @@ pub(super) fn refuse_or_take_line(evidence: &Evidence<'_>, chosen: &mut Chosen) 
         let doubts = refuse_the_unknown(evidence, &mut by_line);
         if refused_parameter(&by_line).is_none() {
             *chosen = by_line;
-            let taken = EstimateFinding::LineTaken { parameter, refused_by: method };
+            let taken = rows::LineTaken { parameter, refused_by: method };
             return doubts.into_iter().chain([Finding::new(taken)]).collect();
         }
     }
@@ -41,7 +41,7 @@ fn refused_parameter(chosen: &Chosen) -> Option<JudgedParameter> {
 
 /// Estimates that are not known to their own size are taken back.
 fn refuse_the_unknown(evidence: &Evidence<'_>, chosen: &mut Chosen) -> Vec<Finding> {
-    let mut findings = Vec::new();
+    let mut findings: Vec<Finding> = Vec::new();
     let regression = evidence.methods.regression.is_some();
     let Chosen { drive, beam, .. } = chosen;
     let units = EstimateUnits::new(&evidence.campaign.channels);
@@ -58,7 +58,7 @@ fn refuse_the_unknown(evidence: &Evidence<'_>, chosen: &mut Chosen) -> Vec<Findi
         let Some(estimate) = *given else {
             // Without a regression one refusal of all of it is enough.
             if regression && !(sum.is_some() && parameter == JudgedParameter::Coulomb) {
-                findings.push(EstimateFinding::NotSeparable { parameter });
+                findings.push(rows::NotSeparable { parameter }.into());
             }
             return;
         };
@@ -66,10 +66,10 @@ fn refuse_the_unknown(evidence: &Evidence<'_>, chosen: &mut Chosen) -> Vec<Findi
         let share = if value == 0.0 { f64::INFINITY } else { std / value.abs() };
         let refused = share > REFUSED_ERROR || share.is_nan() || value < 0.0;
         if estimate.is_negative() {
-            findings.push(EstimateFinding::NegativeEstimate { parameter, estimate, units });
+            findings.push(rows::NegativeEstimate { parameter, estimate, units }.into());
             *given = None;
         } else if refused || share > UNCERTAIN_ERROR {
-            findings.push(EstimateFinding::PoorExcitation { parameter, estimate, units, refused });
+            findings.push(rows::PoorExcitation { parameter, estimate, units, refused }.into());
             *given = given.filter(|_| !refused);
         }
     };
@@ -79,31 +79,33 @@ fn refuse_the_unknown(evidence: &Evidence<'_>, chosen: &mut Chosen) -> Vec<Findi
     if !beam.coupling_by_tip.is_empty() || beam.coupling.is_some() {
         look(JudgedParameter::Coupling, &mut beam.coupling);
     }
-    if findings.iter().any(|f| matches!(f, EstimateFinding::NegativeEstimate { .. })) {
-        findings.push(EstimateFinding::OthersDoubtful);
+    if findings.iter().any(Finding::is::<rows::NegativeEstimate>) {
+        findings.push(rows::OthersDoubtful {}.into());
     }
     // Coulomb friction is the intercept of the slope. What the log shows is a curve that falls with speed.
     if falls {
         drive.inertia = drive.inertia.filter(|_| drive.friction.law.is_some());
         let speed = evidence.methods.friction_law.as_ref().map(|law| law.motion.mean_speed());
         let line = drive.friction.coulomb.take().zip(slope).zip(speed);
-        findings.extend(line.map(|((coulomb, slope), speed)| EstimateFinding::FrictionFalls {
-            speed,
-            friction: coulomb.value + slope.value * speed,
-            units,
+        findings.extend(line.map(|((coulomb, slope), speed)| {
+            Finding::new(rows::FrictionFalls {
+                speed,
+                friction: coulomb.value + slope.value * speed,
+                units,
+            })
         }));
     }
     let friction = &mut drive.friction;
     if regression && friction.coulomb.is_some() && friction.offset.is_none() {
-        findings.push(EstimateFinding::NotSeparable { parameter: JudgedParameter::Offset });
+        findings.push(rows::NotSeparable { parameter: JudgedParameter::Offset }.into());
     }
     if friction.coulomb.is_none() {
         friction.offset = None;
         (friction.forward, friction.backward) = (forward, backward);
         if let Some(sum) = sum {
             let forward = forward.is_some();
-            findings.push(EstimateFinding::FrictionWithLoad { forward, sum, units });
+            findings.push(rows::FrictionWithLoad { forward, sum, units }.into());
         }
     }
-    findings.into_iter().map(Finding::new).collect()
+    findings
 }

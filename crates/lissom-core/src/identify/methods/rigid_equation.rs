@@ -1,7 +1,7 @@
 //! The motor's equation without a beam, for logs in which the coupling to the tips is hardly known and makes the other
 //! estimates worse.
 
-use crate::identify::findings::{BeamFinding, EstimateUnits, Finding};
+use crate::identify::findings::{EstimateUnits, Finding, rows};
 use crate::identify::methods::friction_law::{
     CurveSums, FrictionLaw, friction_law, predicts_better,
 };
@@ -44,7 +44,7 @@ pub(crate) fn rigid_equation(
         return None;
     }
     let units = EstimateUnits::new(&prepared.campaign().channels);
-    let finding = BeamFinding::RigidEquation { coupling, units, residual_shares };
+    let finding = rows::RigidEquation { coupling, units, residual_shares };
     let law = rigid_law;
     let line = least_squares(&rigid, Some(found.window_s));
     let possible = law.as_ref().map_or_else(Vec::new, |(law, _)| law.possible.clone());

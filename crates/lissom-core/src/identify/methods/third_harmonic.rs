@@ -4,8 +4,9 @@ use std::f64::consts::PI;
 
 use num_complex::Complex64;
 
+use crate::finding::result_key as key;
 use crate::identify::estimate::Estimate;
-use crate::identify::findings::{Severity, result_key as key};
+use crate::identify::findings::Severity;
 use crate::identify::methods::thresholds::{STICKING_BIAS, STICKING_MEASURED};
 use crate::identify::prepare::prepared::Prepared;
 use crate::identify::prepare::run_analysis::RunKind;

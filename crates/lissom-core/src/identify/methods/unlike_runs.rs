@@ -1,6 +1,6 @@
 //! Runs that the other runs do not describe; they are left out first.
 
-use crate::identify::findings::{EstimateUnits, Finding, RunFinding};
+use crate::identify::findings::{EstimateUnits, Finding, rows};
 use crate::identify::methods::regression::thresholds::UNLIKE_RUNS_MOST;
 use crate::identify::methods::regression::{MotorRegression, motor_regression, unlike_others};
 use crate::identify::options::Options;
@@ -21,7 +21,7 @@ pub(crate) fn regression_of_like_runs<'a>(
         let beside = regression.as_ref().filter(|_| enough).map(|r| r.beside_others.as_slice());
         let Some(found) = beside.and_then(unlike_others) else { break };
         let used = prepared.used();
-        let finding = RunFinding::UnlikeOthers {
+        let finding = rows::UnlikeOthers {
             misfit: found.misfit,
             difference: found.difference,
             unit: EstimateUnits::new(&used.channels).torque(),

@@ -1,6 +1,6 @@
 //! What is found in logs as a whole.
 
-use crate::identify::findings::{Finding, FindingKind, LogFinding};
+use crate::identify::findings::{Finding, rows};
 use crate::identify::prepare::run_analysis::{RunAnalysis, RunKind};
 use crate::identify::prepare::thresholds::FOLLOWS_MOTOR;
 use crate::record::{Campaign, Run};
@@ -18,8 +18,7 @@ pub(crate) fn command_follows_motor(campaign: &Campaign, runs: &[RunAnalysis]) -
     }
     let [motor, command, both] = sums;
     let correlation = both / (motor * command).sqrt();
-    (correlation > FOLLOWS_MOTOR)
-        .then(|| Finding::new(LogFinding::CommandFollowsMotor { correlation }))
+    (correlation > FOLLOWS_MOTOR).then(|| Finding::new(rows::CommandFollowsMotor { correlation }))
 }
 
 /// Sums of squares of motor and command, and of their products, without their means.
@@ -37,7 +36,9 @@ fn products(run: &Run) -> [f64; 3] {
 pub(crate) fn one_jitter_for_each_log(findings: &mut Vec<Finding>) {
     let mut reported: Vec<String> = Vec::new();
     findings.retain(|finding| {
-        let FindingKind::Log(LogFinding::Jitter { .. }) = finding.kind else { return true };
+        if !finding.is::<rows::Jitter>() {
+            return true;
+        }
         let run = finding.run.as_deref().unwrap_or_default();
         let log = run.split_once(" [").map_or(run, |(log, _)| log).to_owned();
         let new = !reported.contains(&log);
@@ -81,7 +82,7 @@ mod tests {
             let count =
                 |code| prepared.findings().iter().filter(|found| found.code() == code).count();
             assert_eq!(count("command-follows-motor"), seen, "{:?}", prepared.findings());
-            assert_eq!(count("jitter"), 2);
+            assert_eq!(count("uneven-stamps"), 2);
         }
     }
 }

@@ -4,7 +4,7 @@ use std::borrow::Cow;
 
 use rayon::prelude::*;
 
-use crate::identify::findings::{Channel, ChannelFinding, Finding};
+use crate::identify::findings::{Channel, Finding, rows};
 use crate::identify::options::Options;
 use crate::identify::prepare::log_check::{command_follows_motor, one_jitter_for_each_log};
 use crate::identify::prepare::run_analysis::{RunAnalysis, analyse};
@@ -180,7 +180,7 @@ fn dead_tips(campaign: &Campaign, dead: &[bool]) -> Vec<Finding> {
     let tips = campaign.channels.tips.iter().zip(dead).filter(|(_, dead)| **dead);
     let found = |tip: &Tip| {
         let channel = Channel::Tip(tip.name.clone());
-        Finding::new(ChannelFinding::DeadChannel { channel, value: None, unit: "" })
+        Finding::new(rows::DeadTip { channel })
     };
     tips.map(|(tip, _)| found(tip)).collect()
 }

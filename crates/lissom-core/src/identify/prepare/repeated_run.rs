@@ -1,6 +1,6 @@
 //! Detects runs that are copies of other runs.
 
-use crate::identify::findings::{Finding, LogFinding};
+use crate::identify::findings::{Finding, rows};
 use crate::record::{Campaign, Run};
 
 /// Whether a run is one before it once more, to the last bit: it knows nothing new.
@@ -12,7 +12,7 @@ pub(crate) fn repeats(campaign: &Campaign, index: usize, findings: &mut Vec<Find
             && other.tips() == run.tips()
     };
     let Some(first) = campaign.runs[..index].iter().find(same) else { return false };
-    let found = LogFinding::RepeatedRun { first: first.name().to_owned() };
+    let found = rows::RepeatedRun { first: first.name().to_owned() };
     findings.push(Finding::of_run(run.name(), found));
     true
 }

@@ -2,10 +2,7 @@
 
 use num_complex::Complex64;
 
-use crate::identify::findings::{
-    Channel, ChannelFinding, ConstantVelocityFinding, EstimateUnits, Finding, FindingKind,
-    LogFinding, RunFinding,
-};
+use crate::identify::findings::{Channel, EstimateUnits, Finding, rows};
 use crate::identify::methods::constant_velocity::thresholds::{STEADY_BOTH_WAYS, STEADY_ONE_WAY};
 use crate::identify::methods::regression::slip_sign;
 use crate::identify::prepare::channel_check::{clipped_share, dwell_share, rest_share};
@@ -128,7 +125,7 @@ pub(crate) fn analyse(
         let kept = &run.motor()[found.steady.first..];
         let share = dwell_share(kept, found.omega_rad_s, run.sample_time_s());
         if share > STICKING_REPORTED {
-            findings.push(Finding::of_run(run.name(), RunFinding::Sticking { share }));
+            findings.push(Finding::of_run(run.name(), rows::Sticking { share }));
         }
         analysis.stuck_share = Some(share);
         analysis.kind = RunKind::Sinusoidal(Box::new(found));
@@ -140,7 +137,7 @@ pub(crate) fn analyse(
     if steady_share(run, &steady, rest_share(run.motor())) > least {
         analysis.kind = RunKind::ConstantVelocity;
     } else if steady.is_empty() && one_way {
-        let found = ConstantVelocityFinding::NoSteadyVelocity;
+        let found = rows::NoSteadyVelocity {};
         findings.push(Finding::of_run(run.name(), found));
     }
     analysis.steady = steady;
@@ -164,7 +161,7 @@ fn channels(campaign: &Campaign, run: &Run, dead: &[bool], findings: &mut Vec<Fi
     let units = EstimateUnits::new(&campaign.channels);
     let mut usable = true;
     let mut dead_channel = |channel: Channel, x: &[f64], unit: &'static str| {
-        let found = ChannelFinding::DeadChannel { channel, value: Some(x[0]), unit };
+        let found = rows::DeadChannel { channel, value: x[0], unit };
         findings.push(Finding::of_run(run.name(), found));
     };
     for (channel, x, unit) in [
@@ -186,12 +183,8 @@ fn channels(campaign: &Campaign, run: &Run, dead: &[bool], findings: &mut Vec<Fi
         }
     }
     let readings = sensor_check::findings(campaign, run);
-    let left_out = |found: &Finding| {
-        matches!(
-            found.kind,
-            FindingKind::Channel(ChannelFinding::FrozenChannel { left_out: true, .. })
-        )
-    };
+    let left_out =
+        |found: &Finding| found.get().is_some_and(|frozen: &rows::FrozenChannel| frozen.left_out);
     usable &= !readings.iter().any(left_out);
     findings.extend(readings);
     usable
@@ -201,7 +194,7 @@ fn channels(campaign: &Campaign, run: &Run, dead: &[bool], findings: &mut Vec<Fi
 fn at_rest(run: &Run, findings: &mut Vec<Finding>) {
     let share = rest_share(run.motor());
     if share > AT_REST_REPORTED {
-        findings.push(Finding::of_run(run.name(), RunFinding::MostlyAtRest { share }));
+        findings.push(Finding::of_run(run.name(), rows::MostlyAtRest { share }));
     }
 }
 
@@ -215,8 +208,11 @@ fn saturation(campaign: &Campaign, run: &Run, findings: &mut Vec<Finding>) -> f6
     };
     if share > SATURATION_REPORTED {
         let measured = campaign.channels.command.hold == Hold::Measured;
-        let found = ChannelFinding::Saturation { share, limit_given, measured };
-        findings.push(Finding::of_run(run.name(), found));
+        findings.push(if measured && !limit_given {
+            Finding::of_run(run.name(), rows::SensorEnds { share })
+        } else {
+            Finding::of_run(run.name(), rows::Saturation { share, limit_given })
+        });
     }
     share
 }
@@ -234,17 +230,17 @@ fn unlike_sample_time(campaign: &Campaign, run: &Run) -> Option<Finding> {
     let (sample_time_s, median_s) = (run.sample_time_s(), times[(times.len() - 1) / 2]);
     let first = campaign.runs.first().is_some_and(|first| first.name() == run.name());
     if first && !is_possible_sample_time(median_s) {
-        return Some(Finding::new(LogFinding::TimeUnit { sample_time_s: median_s }));
+        return Some(Finding::new(rows::TimeUnit { sample_time_s: median_s }));
     }
     let ratio = sample_time_s / median_s;
-    let found = LogFinding::SampleTimeUnlike { sample_time_s, median_s };
+    let found = rows::SampleTimeUnlike { sample_time_s, median_s };
     (ratio.max(ratio.recip()) > SAMPLE_TIMES_UNLIKE).then(|| Finding::of_run(run.name(), found))
 }
 
 fn time_base(run: &Run, findings: &mut Vec<Finding>) {
     let time = run.time();
     if time.jitter_rms_s > JITTER_REPORTED * time.sample_time_s {
-        let found = LogFinding::Jitter {
+        let found = rows::Jitter {
             rms_share: time.jitter_rms_s / time.sample_time_s,
             max_share: time.jitter_max_s / time.sample_time_s,
         };
@@ -274,7 +270,7 @@ fn sinusoidal(
         Ok(steady) => steady,
         Err(SteadyError::TooFewPeriods { found, least }) => {
             if given {
-                let found = RunFinding::TooFewPeriods {
+                let found = rows::TooFewPeriods {
                     omega_rad_s: omega,
                     blocks: found,
                     blocks_needed: least,
@@ -297,7 +293,7 @@ fn sinusoidal(
     let sinusoid = motor.unexplained() <= SINE_UNEXPLAINED && distortion <= allowed;
     if !sinusoid {
         if given {
-            let found = RunFinding::NotSinusoidal {
+            let found = rows::NotSinusoidal {
                 omega_rad_s: omega,
                 unexplained_share: motor.unexplained(),
                 harmonics_share: distortion,
@@ -314,7 +310,7 @@ fn sinusoidal(
     let tips: Vec<Harmonics> = run.tips().iter().map(|x| fit(x)).collect::<Option<_>>()?;
     steadiness(run, &steady, findings);
     if 3.0 * omega > 0.9 * std::f64::consts::PI / t {
-        let found = RunFinding::HarmonicAboveNyquist {
+        let found = rows::HarmonicAboveNyquist {
             omega_rad_s: 3.0 * omega,
             nyquist_rad_s: std::f64::consts::PI / t,
         };
@@ -325,18 +321,16 @@ fn sinusoidal(
 }
 
 fn steadiness(run: &Run, steady: &Steady, findings: &mut Vec<Finding>) {
-    let mut add = |found: RunFinding| findings.push(Finding::of_run(run.name(), found));
+    let mut add = |found: Finding| findings.push(Finding::of_run(run.name(), found));
     if !steady.settled {
-        add(RunFinding::NotPeriodic {
-            motor_change: steady.motor_change,
-            other_change: steady.other_change,
-        });
+        let (motor_change, other_change) = (steady.motor_change, steady.other_change);
+        add(rows::NotPeriodic { motor_change, other_change }.into());
     }
     if steady.periods < FEW_PERIODS {
-        add(RunFinding::FewPeriods { periods: steady.periods });
+        add(rows::FewPeriods { periods: steady.periods }.into());
     }
     if steady.dropped > 0 {
-        add(RunFinding::TransientDropped { periods: steady.dropped });
+        add(rows::TransientDropped { periods: steady.dropped }.into());
     }
 }
 
@@ -344,7 +338,7 @@ fn drift(run: &Run, motor: &Harmonics, quantum: f64, findings: &mut Vec<Finding>
     let amplitude = motor.phasors[0].value.norm();
     if motor.drift.abs() > DRIFT_REPORTED * amplitude && motor.drift.abs() > DRIFT_STEPS * quantum {
         let share = motor.drift.abs() / amplitude;
-        findings.push(Finding::of_run(run.name(), RunFinding::Drift { share }));
+        findings.push(Finding::of_run(run.name(), rows::Drift { share }));
     }
 }
 

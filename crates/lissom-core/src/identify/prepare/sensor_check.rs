@@ -2,7 +2,7 @@
 
 use std::ops::Range;
 
-use crate::identify::findings::{Channel, ChannelFinding, EstimateUnits, Finding};
+use crate::identify::findings::{Channel, EstimateUnits, Finding, rows};
 use crate::identify::prepare::channel_check::{clipped_share, encoder_bits, jumps};
 use crate::identify::prepare::frozen_sensor::{frozen_motor, frozen_tip};
 use crate::identify::prepare::thresholds::{CLIPPED_REPORTED, WHOLE_TURN};
@@ -53,27 +53,27 @@ fn alone_or_jumping(
     x: &[f64],
     unit: &'static str,
     run: &Run,
-) -> impl Iterator<Item = ChannelFinding> {
+) -> impl Iterator<Item = Finding> {
     [spiked(channel, x, unit, run), jumping(channel, x, unit, run)].into_iter().flatten()
 }
 
-fn jumping(channel: &Channel, x: &[f64], unit: &'static str, run: &Run) -> Option<ChannelFinding> {
+fn jumping(channel: &Channel, x: &[f64], unit: &'static str, run: &Run) -> Option<Finding> {
     let found = jumps(x);
     let (first, step) = *found.first()?;
     let turns = step.abs() / std::f64::consts::TAU;
-    Some(ChannelFinding::ReadingJumps {
+    Some(Finding::new(rows::ReadingJumps {
         channel: channel.clone(),
         step,
         time_s: first as f64 * run.sample_time_s(),
         count: found.len(),
         whole_turns: turns.round() >= 1.0 && (turns - turns.round()).abs() < WHOLE_TURN,
         unit,
-    })
+    }))
 }
 
-fn in_degrees(channel: &Channel, x: &[f64]) -> Option<ChannelFinding> {
+fn in_degrees(channel: &Channel, x: &[f64]) -> Option<Finding> {
     let bits = encoder_bits(x, 360.0)?;
-    Some(ChannelFinding::AngleInDegrees { channel: channel.clone(), bits })
+    Some(rows::AngleInDegrees { channel: channel.clone(), bits }.into())
 }
 
 fn stands_still(
@@ -81,9 +81,9 @@ fn stands_still(
     (x, unit): (&[f64], &'static str),
     (run, still): (&Run, Range<usize>),
     left_out: bool,
-) -> ChannelFinding {
+) -> Finding {
     let t = run.sample_time_s();
-    ChannelFinding::FrozenChannel {
+    rows::FrozenChannel {
         channel,
         value: x[still.start],
         from_s: still.start as f64 * t,
@@ -91,24 +91,25 @@ fn stands_still(
         unit,
         left_out,
     }
+    .into()
 }
 
-fn clipped(channel: &Channel, x: &[f64]) -> Option<ChannelFinding> {
+fn clipped(channel: &Channel, x: &[f64]) -> Option<Finding> {
     let share = clipped_share(x);
     (share > CLIPPED_REPORTED)
-        .then(|| ChannelFinding::ClippedChannel { channel: channel.clone(), share })
+        .then(|| rows::ClippedChannel { channel: channel.clone(), share }.into())
 }
 
-fn spiked(channel: &Channel, x: &[f64], unit: &'static str, run: &Run) -> Option<ChannelFinding> {
+fn spiked(channel: &Channel, x: &[f64], unit: &'static str, run: &Run) -> Option<Finding> {
     let found = spikes(x);
     let first = *found.first()?;
     let beside = [first.checked_sub(1), Some(first + 1)].into_iter().flatten();
-    Some(ChannelFinding::Spike {
+    Some(Finding::new(rows::Spike {
         channel: channel.clone(),
         value: x[first],
         neighbours: beside.filter_map(|k| x.get(k)).copied().collect(),
         time_s: first as f64 * run.sample_time_s(),
         count: found.len(),
         unit,
-    })
+    }))
 }

@@ -2,7 +2,7 @@
 
 use std::f64::consts::PI;
 
-use crate::identify::findings::{Channel, ChannelFinding, Finding};
+use crate::identify::findings::{Channel, Finding, rows};
 use crate::identify::prepare::thresholds::{TIP_ZERO_REPORTED, TIP_ZERO_SHOWN};
 use crate::record::{Campaign, Run, Tip, TipQuantity};
 
@@ -67,7 +67,7 @@ fn reported(tip: &Tip, zeros: &[Vec<Option<TipZero>>], i: usize) -> Option<Findi
     let largest = of_tip.max_by(|a, b| a.value.abs().total_cmp(&b.value.abs()))?;
     (largest.value.abs() > TIP_ZERO_REPORTED * largest.deflection).then(|| {
         let channel = Channel::Tip(tip.name.clone());
-        Finding::new(ChannelFinding::TipZero { channel, value: largest.value })
+        Finding::new(rows::TipZero { channel, value: largest.value })
     })
 }
 
@@ -163,7 +163,7 @@ mod tests {
             let difference = found.runs[0].tips()[0][100] - straight.runs[0].tips()[0][100];
             assert!(difference.abs() < 1e-3, "{difference}");
             assert_eq!(findings.len(), 1);
-            assert_eq!(findings[0].code(), "tip-zero");
+            assert!(findings[0].is::<rows::TipZero>());
         }
     }
 

@@ -3,7 +3,7 @@
 use num_complex::Complex64;
 
 use crate::identify::estimate::Estimate;
-use crate::identify::findings::{Finding, ResponseFinding};
+use crate::identify::findings::{Finding, rows};
 use crate::identify::methods::regression::slip_sign;
 use crate::identify::prepare::channel_noise::channel_noise;
 use crate::identify::prepare::run_analysis::{RunAnalysis, RunKind};
@@ -174,7 +174,7 @@ pub(crate) fn uncertain(responses: &mut [ResponsePoint]) -> Option<Finding> {
             number += 1;
         }
     }
-    let found = ResponseFinding::BandsUncertain { bands: number, of: all, limit: BAND_UNCERTAIN };
+    let found = rows::BandsUncertain { bands: number, of: all, limit: BAND_UNCERTAIN };
     (number > 0).then(|| Finding::new(found))
 }
 
@@ -193,7 +193,6 @@ pub(crate) fn against(responses: &mut [ResponsePoint], model: &MotorFit) -> Opti
             number += 1;
         }
     }
-    let found =
-        ResponseFinding::BandsContradicted { bands: number, of: all, limit: BAND_CONTRADICTED };
+    let found = rows::BandsContradicted { bands: number, of: all, limit: BAND_CONTRADICTED };
     (number > 0).then(|| Finding::new(found))
 }

@@ -2,8 +2,9 @@
 
 use rayon::prelude::*;
 
+use crate::finding::result_key as key;
 use crate::identify::estimate::Estimate;
-use crate::identify::findings::{Finding, ResponseFinding, Severity, result_key as key};
+use crate::identify::findings::{Finding, Severity, rows};
 use crate::identify::prepare::run_analysis::{RunAnalysis, RunKind};
 use crate::identify::responses::bands::{bands, general};
 use crate::identify::responses::correct::{Response, corrected_by_harmonics, ratio};
@@ -102,7 +103,7 @@ pub(crate) fn weak_points(points: &[ResponsePoint], runs: &[RunAnalysis]) -> Vec
             let std_share = weak(&p.motor_corrected?)?;
             let run = &runs[p.run?];
             let omega_rad_s = p.omega_rad_s;
-            let found = ResponseFinding::CorrectionWeak { omega_rad_s, std_share };
+            let found = rows::CorrectionWeak { omega_rad_s, std_share };
             Some(Finding::of_run(&run.name, found))
         })
         .collect()

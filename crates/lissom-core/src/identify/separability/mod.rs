@@ -15,10 +15,7 @@ use judged::Judged;
 pub use run_to_add::RunToAdd;
 pub use runs::{Carried, RunShare};
 
-use crate::identify::findings::{
-    EstimateFinding, Finding, FindingKind, MovedParameter, OutputErrorFinding, RegressionFinding,
-    RunFinding,
-};
+use crate::identify::findings::{Finding, MovedParameter, rows};
 use crate::identify::found_arm::ArmSource;
 use crate::identify::judge::{Chosen, Evidence, Methods, slip_phase_terms};
 use crate::identify::separability::thresholds::ALL_SHARP;
@@ -67,17 +64,16 @@ pub struct Separability {
 
 /// Whether a finding says so.
 fn doubts(finding: &Finding) -> bool {
-    matches!(
-        finding.kind,
-        FindingKind::OutputError(
-            OutputErrorFinding::ReplayDeparts { .. }
-                | OutputErrorFinding::MoreThanNoise { .. }
-                | OutputErrorFinding::ModesMissing { .. }
-                | OutputErrorFinding::DamperDrives { .. }
-        ) | FindingKind::Regression(
-            RegressionFinding::MissingTerm { .. } | RegressionFinding::UnexplainedTorque { .. }
-        ) | FindingKind::Estimate(EstimateFinding::OthersDoubtful)
-    )
+    let doubting = [
+        rows::ReplayDeparts::CODE,
+        rows::MoreThanNoise::CODE,
+        rows::ModesMissing::CODE,
+        rows::DamperDrives::CODE,
+        rows::MissingTerm::CODE,
+        rows::UnexplainedTorque::CODE,
+        rows::OthersDoubtful::CODE,
+    ];
+    doubting.contains(&finding.code())
 }
 
 impl Separability {
@@ -88,8 +84,7 @@ impl Separability {
         findings: &[Finding],
     ) -> Option<Self> {
         // No estimate is given then: there is nothing to judge.
-        let nothing = FindingKind::Estimate(EstimateFinding::CommandSign);
-        if findings.iter().any(|f| f.kind == nothing) {
+        if findings.iter().any(Finding::is::<rows::CommandSign>) {
             return None;
         }
         let (methods, used) = (evidence.methods, evidence.used);
@@ -148,7 +143,7 @@ impl Separability {
             change_share: c.change,
             change_standard_errors: c.standard_errors,
         });
-        let found = RunFinding::RunStandsOut {
+        let found = rows::RunStandsOut {
             residual_ratio: run.residual,
             moved: moved.collect(),
             others_described: self.source == ArmSource::OutputError,

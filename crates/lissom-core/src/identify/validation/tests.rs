@@ -2,7 +2,7 @@ use super::*;
 use crate::arm::Arm;
 use crate::beam::Beam;
 use crate::drive::{Coulomb, DryFriction, Motor};
-use crate::identify::findings::Severity;
+use crate::identify::findings::{Severity, rows};
 use crate::identify::found_arm::{ArmSource, TorqueUsed};
 use crate::identify::methods::friction_law::LagShape;
 use crate::identify::validation::thresholds::GOOD_PREDICTION;
@@ -304,7 +304,11 @@ fn a_short_horizon_says_nothing_against_a_right_arm() {
 fn an_arm_that_does_not_move_has_failed() {
     let stuck = ModalArm { coulomb_nm: 20.0 * rigid().coulomb_nm, ..rigid() };
     let v = by_options(&stuck, &rigid());
-    assert!(v.findings.iter().any(|f| f.code() == "prediction-failed"), "{:?}", v.findings);
+    assert!(
+        v.findings.iter().any(|f| f.get().is_some_and(|row: &rows::PredictionPoor| row.failed)),
+        "{:?}",
+        v.findings
+    );
 }
 
 #[test]

@@ -1,6 +1,6 @@
 //! What a validation shows against the estimates, in findings.
 
-use crate::identify::findings::{Channel, EstimateUnits, Finding, ValidationFinding};
+use crate::identify::findings::{Channel, EstimateUnits, Finding, rows};
 use crate::identify::found_arm::FoundArm;
 use crate::identify::thresholds::{REFUSED_TORQUE, REJECTED_CHANCE, UNEXPLAINED_TORQUE};
 use crate::identify::validation::Validation;
@@ -30,8 +30,10 @@ pub(super) fn findings(
 }
 
 fn not_predicted(found: &FoundArm, campaign: &Campaign) -> Finding {
-    let coupling_known = shows_coupling(found.for_torque(), campaign);
-    Finding::new(ValidationFinding::TorqueNotPredicted { coupling_known })
+    if shows_coupling(found.for_torque(), campaign) {
+        return Finding::new(rows::NoWindow {});
+    }
+    Finding::new(rows::CouplingUnknown {})
 }
 
 fn torque_findings(
@@ -44,7 +46,7 @@ fn torque_findings(
     let expected = torque.expected_error.unwrap_or(0.0);
     if expected > UNEXPLAINED_TORQUE {
         let window_s = torque.window_s;
-        let found = ValidationFinding::TorqueHidden { expected_share: expected, window_s };
+        let found = rows::TorqueHidden { expected_share: expected, window_s };
         findings.push(Finding::new(found));
     }
     if error < GOOD_PREDICTION {
@@ -52,19 +54,18 @@ fn torque_findings(
     }
     let beyond = error > AS_EXPECTED * expected;
     let residual_share = error;
-    if beyond && error > REFUSED_TORQUE {
-        findings.push(Finding::new(ValidationFinding::PredictionFailed { residual_share }));
-    } else if beyond && error > UNEXPLAINED_TORQUE {
-        findings.push(Finding::new(ValidationFinding::PredictionPoor { residual_share }));
+    if beyond && error > UNEXPLAINED_TORQUE {
+        let failed = error > REFUSED_TORQUE;
+        findings.push(Finding::new(rows::PredictionPoor { residual_share, failed }));
     }
     if let Some(used) = found.torque_used
         && (torque.window_s / used.window_s - 1.0).abs() < SAME_WINDOW
         && beyond
         && error > WORSE_THAN_USED * used.relative_error
     {
-        findings.push(Finding::new(ValidationFinding::PredictionWorse {
+        findings.push(Finding::new(rows::PredictionWorse {
             residual_share,
-            residual_share_of_identification: used.relative_error,
+            of_identification: used.relative_error,
             expected_share: expected,
         }));
     }
@@ -72,10 +73,7 @@ fn torque_findings(
     if let Some(cause) =
         torque.causes.iter().max_by(beyond).filter(|c| c.share_beyond() > CAUSE_NAMED)
     {
-        let found = ValidationFinding::ResidualTorque {
-            cause: *cause,
-            units: EstimateUnits::new(channels),
-        };
+        let found = rows::ResidualTorque { cause: *cause, units: EstimateUnits::new(channels) };
         findings.push(Finding::new(found));
     }
 }
@@ -86,7 +84,7 @@ fn departure(validation: &Validation) -> Option<Finding> {
     let worst = whole.channels.iter().map(|c| c.fit_percent).fold(f64::INFINITY, f64::min);
     let holds = validation.horizons.get(validation.chosen)?;
     let least = holds.channels.iter().map(|c| c.fit_percent).fold(f64::INFINITY, f64::min);
-    let found = ValidationFinding::MotionDeparts {
+    let found = rows::MotionDeparts {
         fit_percent: worst,
         shorter_s: holds.length_s,
         shorter_fit_percent: least,
@@ -96,7 +94,7 @@ fn departure(validation: &Validation) -> Option<Finding> {
 
 /// A beam that is not the one of the logs used.
 fn beam(validation: &Validation) -> Option<Finding> {
-    Some(Finding::new(ValidationFinding::ModeMoved { moved: validation.moved_mode? }))
+    Some(Finding::new(rows::ModeMoved { moved: validation.moved_mode? }))
 }
 
 fn residual_findings(campaign: &Campaign, validation: &Validation, findings: &mut Vec<Finding>) {
@@ -110,12 +108,12 @@ fn residual_findings(campaign: &Campaign, validation: &Validation, findings: &mu
         }
         if r.outside() > FOLLOWS_COMMAND {
             let (channel, share) = (channel.clone(), r.outside());
-            let found = ValidationFinding::ResidualFollowsCommand { channel, share };
+            let found = rows::ResidualFollowsCommand { channel, share };
             findings.push(Finding::new(found));
         }
         if r.white_probability < REJECTED_CHANCE {
             let noise_ratio = r.rms / r.sensor_noise.max(f64::MIN_POSITIVE);
-            let found = ValidationFinding::ResidualNotWhite { channel, noise_ratio };
+            let found = rows::ResidualNotWhite { channel, noise_ratio };
             findings.push(Finding::new(found));
         }
     }

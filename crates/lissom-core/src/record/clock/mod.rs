@@ -39,7 +39,7 @@ use thiserror::Error;
 use part::{Part, Sampling};
 use tally::Tally;
 
-use super::{Note, TimeBase};
+use super::{TimeBase, note};
 
 /// A log as parts with even samples.
 #[derive(Debug, Clone, PartialEq)]
@@ -87,7 +87,7 @@ pub fn even_parts(mut log: LogRows, trim: &Trim, least: usize) -> Result<EvenLog
     let mut cuts = restarts.cuts;
     if restarts.joined + cuts.len() > 0 {
         let (joined, cut, at_s) = (restarts.joined, cuts.len(), restarts.at_s);
-        tally.restart = Some(Note::ClockRestart { joined, cut, at_s });
+        tally.restart = Some(note::ClockRestart { joined, cut, at_s }.into());
     }
     trim.apply(&mut log, &mut cuts)?;
     remove_repeated(&mut log, &mut cuts, &mut tally);
@@ -120,7 +120,8 @@ pub fn even_parts(mut log: LogRows, trim: &Trim, least: usize) -> Result<EvenLog
         {
             let at_s = log.stamps_s[*change];
             let (first_s, last_s) = (first.base.sample_time_s, last.base.sample_time_s);
-            tally.rates = Some(Note::RateChange { rates: starts.len() - 1, at_s, first_s, last_s });
+            tally.rates =
+                Some(note::RateChange { rates: starts.len() - 1, at_s, first_s, last_s }.into());
         }
     }
     Ok(finish(log, parts, tally, least))
@@ -160,7 +161,7 @@ fn remove_repeated(log: &mut LogRows, cuts: &mut [usize], tally: &mut Tally) {
     let found = repeated_readings::first_readings(&log.command, &log.motor, &log.tips);
     let Some((kept, per_reading)) = found else { return };
     let removed = log.stamps_s.len() - kept.len();
-    tally.repeated = Some(Note::RepeatedReadings { per_reading, removed });
+    tally.repeated = Some(note::RepeatedReadings { per_reading, removed }.into());
     let channels = [&mut log.stamps_s, &mut log.command, &mut log.motor];
     for channel in channels.into_iter().chain(&mut log.tips) {
         *channel = kept.iter().map(|&row| channel[row]).collect();

@@ -4,7 +4,8 @@ use std::mem::take;
 use std::ops::Range;
 
 use super::resample::Resampler;
-use crate::record::{Hold, Note, TimeBase};
+use crate::finding::Finding;
+use crate::record::{Hold, TimeBase};
 
 /// The channels of a log, row by row.
 #[derive(Debug, Clone)]
@@ -37,7 +38,7 @@ pub struct EvenPart {
     /// Tip channels, each as long as the motor's.
     pub tips: Vec<Vec<f64>>,
     /// What was done to the log. The first part has the notes of the whole log.
-    pub notes: Vec<Note>,
+    pub notes: Vec<Finding>,
 }
 
 impl EvenPart {

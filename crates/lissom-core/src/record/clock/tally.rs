@@ -1,14 +1,15 @@
 //! What was done to a log, counted: one note of each kind.
 
 use super::interpolation_error::InterpolationError;
-use crate::record::Note;
+use crate::finding::Finding;
+use crate::record::note;
 
 /// Counts over a whole log.
 #[derive(Debug, Clone, Default)]
 pub(super) struct Tally {
-    pub(super) repeated: Option<Note>,
-    pub(super) restart: Option<Note>,
-    pub(super) rates: Option<Note>,
+    pub(super) repeated: Option<Finding>,
+    pub(super) restart: Option<Finding>,
+    pub(super) rates: Option<Finding>,
     pub(super) gaps: usize,
     /// The longest gap: the stamp before it, its length.
     pub(super) longest_gap: (f64, f64),
@@ -74,26 +75,26 @@ impl Tally {
         }
     }
 
-    pub(super) fn notes(self) -> Vec<Note> {
-        let mut notes: Vec<Note> =
+    pub(super) fn notes(self) -> Vec<Finding> {
+        let mut notes: Vec<Finding> =
             [self.repeated, self.restart, self.rates].into_iter().flatten().collect();
         if let Some(Counted { step_s, jitter_rms_share, agreement }) = self.counted {
-            notes.push(Note::SampleCount { step_s, jitter_rms_share, agreement });
+            notes.push(note::SampleCount { step_s, jitter_rms_share, agreement }.into());
         }
         if let Some(Resampled { step_s, agreement, error, error_share, noise }) = self.resampled {
-            notes.push(Note::Resampled { step_s, agreement, error, error_share, noise });
+            notes.push(note::Resampled { step_s, agreement, error, error_share, noise }.into());
         }
         if self.filled > 0 {
             let share = self.filled as f64 / self.samples.max(1) as f64;
-            notes.push(Note::RowsFilled { count: self.filled, share });
+            notes.push(note::RowsFilled { count: self.filled, share }.into());
         }
         if self.gaps > 0 {
             let (at_s, length_s) = self.longest_gap;
-            notes.push(Note::Gap { count: self.gaps, at_s, length_s });
+            notes.push(note::Gap { count: self.gaps, at_s, length_s }.into());
         }
         if self.dropped > 0 {
             let (count, at_s, samples) = (self.dropped, self.dropped_at_s, self.dropped_samples);
-            notes.push(Note::PieceDropped { count, at_s, samples });
+            notes.push(note::PieceDropped { count, at_s, samples }.into());
         }
         notes
     }

@@ -1,9 +1,7 @@
 //! What speaks against an extrapolation to zero speed.
 
 use crate::identify::estimate::Estimate;
-use crate::identify::findings::{
-    ConstantVelocityFinding, Curvature, EstimateUnits, Finding, SlipDirection,
-};
+use crate::identify::findings::{EstimateUnits, Finding, rows};
 use crate::identify::methods::constant_velocity::ConstantVelocity;
 use crate::identify::methods::constant_velocity::line::{FrictionLine, LineError, LineShape};
 use crate::record::Campaign;
@@ -15,8 +13,7 @@ pub(crate) fn findings(campaign: &Campaign, found: &ConstantVelocity, meant: boo
         torque_per_command: campaign.channels.command.torque_per_unit(),
         unit: EstimateUnits::new(&campaign.channels).command(),
     };
-    let lines =
-        [(SlipDirection::Forward, &found.forward), (SlipDirection::Backward, &found.backward)];
+    let lines = [("forward", &found.forward), ("backward", &found.backward)];
     let known =
         lines.iter().filter_map(|(direction, line)| Some((*direction, line.as_ref().ok()?)));
     let mut out: Vec<_> =
@@ -26,7 +23,7 @@ pub(crate) fn findings(campaign: &Campaign, found: &ConstantVelocity, meant: boo
             lines.iter().filter_map(|(direction, line)| Some((*direction, line.as_ref().err()?)));
         out.extend(errors.map(|(direction, error)| refused(direction, *error, command)));
     }
-    out.into_iter().map(Finding::new).collect()
+    out
 }
 
 /// The command of a torque.
@@ -42,50 +39,41 @@ impl CommandScale {
     }
 }
 
-fn shape(
-    direction: SlipDirection,
-    line: &FrictionLine,
-    scale: CommandScale,
-) -> Option<ConstantVelocityFinding> {
+fn shape(direction: &'static str, line: &FrictionLine, scale: CommandScale) -> Option<Finding> {
     let (command, unit) = (scale.of(line.coulomb).value, scale.unit);
-    let curved = |curvature: Curvature, standard_errors: f64| {
-        Some(ConstantVelocityFinding::ExtrapolationCurved {
+    let curved = |concave: bool, standard_errors: f64| {
+        Some(Finding::new(rows::ExtrapolationCurved {
             direction,
-            curvature,
+            concave,
             standard_errors,
             command,
-            command_of_slowest: line.slowest.map(|slowest| scale.of(slowest)),
+            of_slowest: line.slowest.map(|slowest| scale.of(slowest)),
             unit,
-        })
+        }))
     };
     match line.shape {
         LineShape::Straight => None,
-        LineShape::Concave { standard_errors } => curved(Curvature::Concave, standard_errors),
-        LineShape::Convex { standard_errors } => curved(Curvature::Convex, standard_errors),
-        LineShape::Scattered { rms } => Some(ConstantVelocityFinding::SpeedsScatter {
+        LineShape::Concave { standard_errors } => curved(true, standard_errors),
+        LineShape::Convex { standard_errors } => curved(false, standard_errors),
+        LineShape::Scattered { rms } => Some(Finding::new(rows::SpeedsScatter {
             direction,
             rms_standard_errors: rms,
             command,
             unit,
-        }),
-        LineShape::Unchecked => Some(ConstantVelocityFinding::TwoSpeeds { direction }),
+        })),
+        LineShape::Unchecked => Some(Finding::new(rows::TwoSpeeds { direction })),
     }
 }
 
-fn refused(
-    direction: SlipDirection,
-    error: LineError,
-    scale: CommandScale,
-) -> ConstantVelocityFinding {
+fn refused(direction: &'static str, error: LineError, scale: CommandScale) -> Finding {
     match error {
-        LineError::NoPoints => ConstantVelocityFinding::OneDirection { direction },
-        LineError::TooFewSpeeds { found } => {
-            ConstantVelocityFinding::TooFewSpeeds { direction, speeds: found }
-        }
-        LineError::TooClose { coulomb, std } => ConstantVelocityFinding::SpeedsTooClose {
+        LineError::NoPoints => rows::OneDirection { direction }.into(),
+        LineError::TooFewSpeeds { found } => rows::TooFewSpeeds { direction, speeds: found }.into(),
+        LineError::TooClose { coulomb, std } => rows::SpeedsTooClose {
             direction,
             command: scale.of(Estimate { value: coulomb, std }),
             unit: scale.unit,
-        },
+        }
+        .into(),
     }
 }

@@ -2,7 +2,7 @@
 
 use crate::identify::drive_estimates::{DriveEstimates, Method};
 use crate::identify::estimate::Estimate;
-use crate::identify::findings::{ConstantVelocityFinding, Finding};
+use crate::identify::findings::{Finding, rows};
 use crate::identify::friction_estimates::{Friction, LawEstimates};
 use crate::identify::judge::{Chosen, Evidence};
 use crate::identify::methods::constant_velocity::ConstantVelocity;
@@ -13,22 +13,21 @@ use crate::record::Campaign;
 /// What a campaign of nothing but constant velocities cannot give.
 pub(crate) fn only_constant_velocities(campaign: &Campaign) -> Finding {
     let flexible = !campaign.channels.tips.is_empty();
-    Finding::new(ConstantVelocityFinding::ConstantVelocityOnly { flexible })
+    Finding::new(rows::ConstantVelocityOnly { flexible })
 }
 
 /// That friction is from constant velocities, where it is.
-pub(crate) fn taken(evidence: &Evidence<'_>, chosen: &Chosen) -> Vec<Finding> {
-    let found = evidence.methods.constant_velocity.as_ref();
-    let taken = chosen.method == Some(Method::ConstantVelocity);
-    let Some(found) = found.filter(|_| taken && chosen.drive.friction.coulomb.is_some()) else {
-        return Vec::new();
-    };
-    let mut findings = vec![Finding::new(ConstantVelocityFinding::ConstantVelocityEstimates)];
-    let curved = |l: &FrictionLine| l.near_rest() != l.coulomb;
-    if found.lines().any(|(_, line)| curved(line)) {
-        findings.push(Finding::new(ConstantVelocityFinding::SlowestSpeedsTaken));
+pub(crate) fn taken(evidence: &Evidence<'_>, chosen: &Chosen) -> Option<Finding> {
+    let found = evidence.methods.constant_velocity.as_ref()?;
+    if chosen.method != Some(Method::ConstantVelocity) || chosen.drive.friction.coulomb.is_none() {
+        return None;
     }
-    findings
+    let curved = |(_, line): (&str, &FrictionLine)| line.near_rest() != line.coulomb;
+    Some(if found.lines().any(curved) {
+        Finding::new(rows::SlowestSpeedsTaken {})
+    } else {
+        Finding::new(rows::ConstantVelocityEstimates {})
+    })
 }
 
 impl ConstantVelocity {

@@ -1,7 +1,7 @@
 //! The finding that reports the law of friction.
 
 use crate::identify::estimate::Estimate;
-use crate::identify::findings::{BetterLaw, EstimateUnits, Finding, FrictionLawFinding, LawSource};
+use crate::identify::findings::{BetterLaw, EstimateUnits, Finding, LawSource, rows};
 use crate::identify::judge::Evidence;
 use crate::identify::methods::friction_law::candidates::ModelTerm;
 use crate::identify::methods::friction_law::choice::LawCandidate;
@@ -14,7 +14,7 @@ use crate::identify::methods::regression::MotorRegression;
 pub(crate) fn finding(evidence: &Evidence<'_>) -> Option<Finding> {
     let units = EstimateUnits::new(&evidence.campaign.channels);
     let reported = |terms: Vec<(LawTerm, Vec<Estimate>)>, source: LawSource| {
-        Some(Finding::new(FrictionLawFinding::FrictionLaw { terms, source, units }))
+        Some(Finding::new(rows::FrictionLaw { terms, source, units }))
     };
     let replay = evidence.replay();
     let by_replay = replay.map_or(Vec::new(), OutputError::law_terms);

@@ -1,9 +1,8 @@
 //! Findings about the estimates of the output-error method.
 
+use crate::finding::result_key as key;
 use crate::identify::estimate::Estimate;
-use crate::identify::findings::{
-    Channel, Finding, LagCause, OutputErrorFinding, result_key as key,
-};
+use crate::identify::findings::{Channel, Finding, rows};
 use crate::identify::judge::Evidence;
 use crate::identify::methods::output_error::found::{OutputError, SearchEnd};
 use crate::identify::methods::output_error::model::describes::is_left;
@@ -60,12 +59,12 @@ fn lag_of(evidence: &Evidence<'_>, oe: &OutputError) -> Option<Estimate> {
 fn motions_part(oe: &OutputError) -> Option<Finding> {
     let window_s = oe.stages.last()?.window_s;
     (oe.describes_whole_runs() && oe.is_in_windows())
-        .then(|| Finding::new(OutputErrorFinding::MotionsPart { window_s }))
+        .then(|| Finding::new(rows::MotionsPart { window_s }))
 }
 
 /// The limit of evaluations ended the search.
 fn budget_spent(oe: &OutputError) -> Option<Finding> {
-    Some(Finding::new(OutputErrorFinding::BudgetSpent {
+    Some(Finding::new(rows::BudgetSpent {
         evaluations: oe.evaluations,
         window_s: longest(oe)?.window_s,
         used: oe.stands(),
@@ -80,7 +79,7 @@ fn departs(evidence: &Evidence<'_>, oe: &OutputError) -> Option<Finding> {
     }
     // Noise of the command moves the arm; of friction that varies the regression's finding tells.
     if command_is_noise(evidence) {
-        return Some(Finding::new(OutputErrorFinding::CommandNoise));
+        return Some(Finding::new(rows::CommandNoise {}));
     }
     let regression = evidence.methods.regression.as_ref();
     let varies = regression.is_some_and(|r| r.varies_by().is_some()) && !lawful(evidence);
@@ -91,7 +90,7 @@ fn departs(evidence: &Evidence<'_>, oe: &OutputError) -> Option<Finding> {
     let (first, last) = (oe.stages.first()?, longest(oe)?);
     let grown = first.residual.iter().zip(&last.residual).map(|(a, b)| b / a).fold(0.0, f64::max);
     let hides_mode = oe.beyond_noise < oe.accepted_residual && !oe.sees_modes;
-    Some(Finding::new(OutputErrorFinding::ReplayDeparts {
+    Some(Finding::new(rows::ReplayDeparts {
         window_s: last.window_s,
         grown_from: (grown > RESIDUAL_GROWN && last.window_s > first.window_s)
             .then_some((first.window_s, grown)),
@@ -123,7 +122,7 @@ fn more_than_noise(campaign: &Campaign, oe: &OutputError) -> Option<Finding> {
         None => Channel::Motor,
         Some(tip) => Channel::Tip(campaign.channels.tips[tip].name.clone()),
     };
-    Some(Finding::new(OutputErrorFinding::MoreThanNoise { channel, share: *share }))
+    Some(Finding::new(rows::MoreThanNoise { channel, share: *share }))
 }
 
 /// The runs hardly drive the highest mode: they show its k/ω², and noise determines its frequency.
@@ -132,7 +131,7 @@ fn faint_mode(arm: &ModalArm, estimate: impl Fn(Parameter) -> Option<Estimate>) 
     let stiffness = estimate(Parameter::Stiffness(mode)).filter(|_| arm.modes.len() > 1)?;
     let share = stiffness.std / stiffness.value.abs();
     let omega_rad_s = arm.modes[mode].omega_rad_s;
-    let found = OutputErrorFinding::FaintMode { omega_rad_s, stiffness_std_share: share };
+    let found = rows::FaintMode { omega_rad_s, stiffness_std_share: share };
     (share > MODE_FAINT).then(|| Finding::new(found))
 }
 
@@ -142,7 +141,7 @@ fn driving_damper(estimates: impl Iterator<Item = (Parameter, Estimate)>) -> Opt
     let drives = estimates.filter(|(p, e)| p.is_damper() && e.value < -DAMPER_DRIVES * e.std);
     let (damper, rate_per_s) =
         drives.min_by(|(_, a), (_, b)| (a.value / a.std).total_cmp(&(b.value / b.std)))?;
-    Some(Finding::new(OutputErrorFinding::DamperDrives { damper, rate_per_s }))
+    Some(Finding::new(rows::DamperDrives { damper, rate_per_s }))
 }
 
 /// The stage with the longest windows.
@@ -157,7 +156,7 @@ fn modes_by_the_motor(campaign: &Campaign, oe: &OutputError) -> Option<Finding> 
     let behind: f64 = arm.modes.iter().map(Oscillator::inertia_kg_m2).sum();
     let lowest = arm.modes.iter().map(|m| m.omega_rad_s).fold(f64::INFINITY, f64::min);
     (modes > 0 && campaign.channels.tips.is_empty()).then(|| {
-        Finding::new(OutputErrorFinding::ModesByTheMotor {
+        Finding::new(rows::ModesByTheMotor {
             modes,
             lowest_rad_s: lowest,
             inertia_share: arm.inertia_kg_m2 / (arm.inertia_kg_m2 + behind),
@@ -168,8 +167,7 @@ fn modes_by_the_motor(campaign: &Campaign, oe: &OutputError) -> Option<Finding> 
 /// There are fewer modes than tips: no run shows the missing mode, and its inertia is counted with the motor's.
 fn modes_missing(campaign: &Campaign, oe: &OutputError) -> Option<Finding> {
     let (modes, tips) = (oe.arm.modes.len(), campaign.channels.tips.len());
-    (modes > 0 && modes < tips)
-        .then(|| Finding::new(OutputErrorFinding::ModesMissing { modes, tips }))
+    (modes > 0 && modes < tips).then(|| Finding::new(rows::ModesMissing { modes, tips }))
 }
 
 /// Damping within the beam cannot be distinguished from damping against the frame. It is a warning if other estimates
@@ -184,7 +182,7 @@ fn damping_kind(oe: &OutputError) -> Option<Finding> {
     };
     let open = &oe.open_by_damping;
     let parameters = open.iter().filter_map(of_parameter).collect();
-    (!open.is_empty()).then(|| Finding::new(OutputErrorFinding::DampingKind { parameters }))
+    (!open.is_empty()).then(|| Finding::new(rows::DampingKind { parameters }))
 }
 
 /// The command acts later than it is logged.
@@ -192,23 +190,25 @@ pub(crate) fn command_lag(campaign: &Campaign, lag: Estimate) -> Finding {
     let hold = campaign.channels.command.hold;
     // A held sample acts, on average, half a sample later than its time.
     let (towards_other, other) = match hold {
-        Hold::Measured => (0.5, LagCause::LooksHeld),
-        Hold::Sampled => (-0.5, LagCause::LooksMeasured),
+        Hold::Measured => (0.5, Hold::Sampled),
+        Hold::Sampled => (-0.5, Hold::Measured),
     };
     let is_half = |run: &Run| {
         let half_s = towards_other * run.sample_time_s();
         (lag.value - half_s).abs() < (PRESENT * lag.std).max(LAG_HALF_SAMPLE * half_s.abs())
     };
     let told = lag.std < LAG_COMPARED * lag.value.abs();
-    let cause = if told && campaign.runs.iter().all(is_half) { other } else { LagCause::Delay };
-    Finding::new(OutputErrorFinding::CommandLag { lag_s: lag, cause })
+    if told && campaign.runs.iter().all(is_half) {
+        return Finding::new(rows::LooksLikeHold { lag_s: lag, hold: other });
+    }
+    Finding::new(rows::CommandLag { lag_s: lag })
 }
 
 /// Tips that are read later than the motor.
 fn tip_lags(campaign: &Campaign, oe: &OutputError) -> Vec<Finding> {
     let late = |(i, tip): (usize, &Tip)| {
         let lag_s = oe.estimate(Parameter::TipLag(i))?;
-        Some(Finding::new(OutputErrorFinding::TipLag { tip: tip.name.clone(), lag_s }))
+        Some(Finding::new(rows::TipLag { tip: tip.name.clone(), lag_s }))
     };
     campaign.channels.tips.iter().enumerate().filter_map(late).collect()
 }

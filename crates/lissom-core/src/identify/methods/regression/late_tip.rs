@@ -5,7 +5,7 @@ use std::sync::Arc;
 use nalgebra::DMatrix;
 
 use crate::identify::estimate::Estimate;
-use crate::identify::findings::{Finding, RegressionFinding};
+use crate::identify::findings::{Finding, rows};
 use crate::identify::methods::regression::motor::{MotorRegression, motor_regression};
 use crate::identify::methods::regression::motor_columns::coupled_tips;
 use crate::identify::methods::regression::motor_rows::{SineAndCosine, behind};
@@ -46,7 +46,7 @@ pub(crate) fn with_tips_in_time<'a>(
         }
         let Some(lag_s) = late_by(&mut in_time, tip) else { continue };
         let tip = channel.name.clone();
-        findings.push(Finding::new(RegressionFinding::TipReadLate { tip, lag_s }));
+        findings.push(Finding::new(rows::TipReadLate { tip, lag_s }));
     }
     let again = (!findings.is_empty()).then(|| motor_regression(&in_time, options)).flatten();
     match again.filter(|r| !drives(r)) {

@@ -2,7 +2,7 @@
 
 use crate::identify::drive_estimates::Method;
 use crate::identify::estimate::Estimate;
-use crate::identify::findings::{BeamFinding, EstimateUnits, Finding, RegressionFinding};
+use crate::identify::findings::{EstimateUnits, Finding, rows};
 use crate::identify::gravity_estimate::Gravity;
 use crate::identify::identified::torque_constant;
 use crate::identify::judge::{Chosen, Evidence};
@@ -29,42 +29,41 @@ pub(crate) fn findings(evidence: &Evidence<'_>, chosen: &Chosen) -> Vec<Finding>
         // A load may be most of the torque.
         let gravity = |m: &MissingTerm| m.kind == MissingKind::Gravity;
         let missing = evidence.methods.missing.iter().copied().find(gravity);
-        let term = |term| Finding::new(RegressionFinding::MissingTerm { term, units });
+        let term = |term| Finding::new(rows::MissingTerm { term, units });
         findings.extend(missing.map(term));
         let residual_share = evidence.methods.regression_residual;
         let explained = missing.is_some();
         let by_least_squares = chosen.method == Some(Method::LeastSquares);
-        let refused =
-            RegressionFinding::RegressionRefused { residual_share, explained, by_least_squares };
+        let refused = rows::RegressionRefused { residual_share, explained, by_least_squares };
         findings.push(Finding::new(refused));
         return findings;
     };
     if r.phases < FEW_PHASES && !explained {
-        let counted = (chosen.method == Some(Method::Regression)).then_some(USUAL_VARIATION);
-        findings.push(Finding::new(RegressionFinding::FewPhases { phases: r.phases, counted }));
+        let variation = (chosen.method == Some(Method::Regression)).then_some(USUAL_VARIATION);
+        findings.push(Finding::new(rows::FewPhases { phases: r.phases, variation }));
     }
     let residual_share = left_by_chosen(evidence, chosen).unwrap_or(r.relative_residual);
     if residual_share > UNEXPLAINED_TORQUE && !explained {
-        findings.push(Finding::new(RegressionFinding::UnexplainedTorque { residual_share }));
+        findings.push(Finding::new(rows::UnexplainedTorque { residual_share }));
     }
     let given = !explained && chosen.drive.inertia.is_some();
     if let Some(short_by) = r.inertia_short_by.filter(|share| given && *share > INERTIA_SHORT) {
-        findings.push(Finding::new(RegressionFinding::InertiaShort { short_by }));
+        findings.push(Finding::new(rows::InertiaShort { short_by }));
     }
     findings.extend(gravity_pairs(evidence, r, chosen));
     if !explained && is_one_sine(evidence.runs, r) {
-        findings.push(Finding::new(RegressionFinding::OneSine));
+        findings.push(Finding::new(rows::OneSine {}));
     }
     let law = evidence.methods.friction_law.as_ref();
     let departs = law.is_some_and(|law| law.chosen.departs());
     if let Some(lag) = law.and_then(|law| law.lag).filter(|_| !explained) {
-        findings.push(Finding::new(RegressionFinding::AngleLag { lag }));
+        findings.push(Finding::new(rows::AngleLag { lag }));
     }
     if let Some(mode) = r.mode.filter(|_| !explained) {
-        findings.push(Finding::new(RegressionFinding::HiddenMode { mode }));
+        findings.push(Finding::new(rows::HiddenMode { mode }));
     }
     for term in evidence.methods.missing.iter().filter(|_| !explained) {
-        findings.push(Finding::new(RegressionFinding::MissingTerm { term: *term, units }));
+        findings.push(Finding::new(rows::MissingTerm { term: *term, units }));
     }
     if chosen.method == Some(Method::Regression) {
         let told = |m: &MovingTerm| {
@@ -74,12 +73,12 @@ pub(crate) fn findings(evidence: &Evidence<'_>, chosen: &Chosen) -> Vec<Finding>
                 .iter()
                 .any(|missing| ModelTerm::Missing(missing.kind) == m.term)
         };
-        let possible = |term| Finding::new(RegressionFinding::PossibleTerm { term });
+        let possible = |term| Finding::new(rows::PossibleTerm { term });
         findings.extend(r.moving().filter(told).map(possible));
     }
     let simple = !explained && !departs && evidence.methods.missing.is_empty();
     if let Some(by) = r.varies_by().filter(|_| simple) {
-        findings.push(Finding::new(RegressionFinding::FrictionVaries { by }));
+        findings.push(Finding::new(rows::FrictionVaries { by }));
     }
     findings
 }
@@ -106,8 +105,7 @@ fn contradicted_constant(
     let by_gravity = torque_constant(campaign, chosen.drive.gravity)?;
     let apart = (by_gravity.value - given).abs();
     let contradicts = apart > CLEARLY_PRESENT * by_gravity.std && apart > CONSTANT_DOUBTED * given;
-    contradicts
-        .then(|| Finding::new(RegressionFinding::TorqueConstant { by_gravity, given, units }))
+    contradicts.then(|| Finding::new(rows::TorqueConstant { by_gravity, given, units }))
 }
 
 /// What gravity can hardly be told from.
@@ -123,9 +121,8 @@ fn gravity_pairs(evidence: &Evidence<'_>, r: &MotorRegression, chosen: &Chosen) 
     let angles = evidence.used.runs.iter().flat_map(Run::motor);
     let (sum, count) = angles.fold((0.0, 0.0), |(sum, count), q| (sum + q, count + 1.0));
     let pairs = r.terms.pairs_with_gravity(sum / count, gravity.amplitude().value);
-    let finding = |(with, correlation)| {
-        Finding::new(RegressionFinding::GravityUnseparated { with, correlation })
-    };
+    let finding =
+        |(with, correlation)| Finding::new(rows::GravityUnseparated { with, correlation });
     pairs.into_iter().map(finding).collect()
 }
 
@@ -134,7 +131,7 @@ pub(crate) fn reversed_tip(chosen: &Chosen) -> Option<Finding> {
     let coupling = || chosen.solution.coupling_by_tip.iter().flatten();
     let negative = coupling().any(Estimate::is_negative);
     let alone = coupling().count() == 1;
-    (negative && alone).then(|| Finding::new(BeamFinding::CouplingSign))
+    (negative && alone).then(|| Finding::new(rows::CouplingSign {}))
 }
 
 /// Whether there is a beam, and all runs that are used are a sine of one frequency.

@@ -1,7 +1,5 @@
 //! Result keys that findings affect, without the suffix of their unit.
 
-use crate::information::ArmParameter;
-
 pub(crate) const COULOMB: &str = "friction.coulomb";
 pub(crate) const OFFSET: &str = "friction.offset";
 pub(crate) const VISCOUS: &str = "friction.viscous";
@@ -24,14 +22,11 @@ pub(crate) const TORQUE: &str = "torque";
 pub(crate) const MOTION: &str = "motion";
 pub(crate) const RESIDUALS: &str = "residuals";
 
-/// The key of a parameter.
-pub(super) fn of(parameter: ArmParameter) -> &'static str {
-    match parameter {
-        ArmParameter::Coulomb => COULOMB,
-        ArmParameter::Viscous => VISCOUS,
-        ArmParameter::Inertia => INERTIA,
-        ArmParameter::Coupling => COUPLING,
-        ArmParameter::Frequency(_) | ArmParameter::Damping(_) => MODES,
-        ArmParameter::Offset => OFFSET,
-    }
-}
+/// Keys of what a wrong channel or a wrong command makes wrong.
+pub(crate) const LINE: &[&str] = &[COULOMB, VISCOUS, INERTIA];
+/// The same, with friction by direction and what a load and a beam add to the motor's equation.
+pub(crate) const JOINT: &[&str] = &[COULOMB, OFFSET, VISCOUS, INERTIA, GRAVITY, COUPLING];
+/// Keys of the parameters of an arm.
+pub(crate) const WHOLE_ARM: &[&str] = &[COULOMB, VISCOUS, INERTIA, GRAVITY, COUPLING, MODES];
+/// Keys of a channel's readings.
+pub(crate) const READINGS: &[&str] = &[COULOMB, VISCOUS, INERTIA, COUPLING, MODES, TIP_RESPONSES];
