@@ -4,16 +4,18 @@ use std::path::Path;
 
 use lissom_core::arm::Arm;
 use lissom_core::beam::BeamError;
+use lissom_core::drive::DriveError;
 use lissom_core::rig::{
     Amplifier, ControlLaw, Delay, Harmonic, Instruments, IntegerPd, JointFriction, Noise, Pd, Pid,
     Quantiser, Rig, RigError, Scene, Sensor, Signal, TipWorld,
 };
 
-use super::arm_error::{ArmError, absent};
+use super::arm_error::{absent, load_on_beam};
 use super::arm_spec::ArmFile;
 use super::beam_spec::BeamKind;
 use super::rig_spec::{ControllerSpec, RigSpec, SensorSpec, SensorSteps};
 use super::tip_spec::{SignalSpec, TipSpec};
+use crate::config::ConfigError;
 
 /// Largest number of simulated masses. More masses add nothing useful, and a run takes hours.
 const COORDINATES_MOST: usize = 150;
@@ -27,14 +29,14 @@ impl ArmFile {
     ///
     /// # Errors
     /// As [`arm`](Self::arm), and if `[rig]` is missing.
-    pub fn rig(&self, path: &Path) -> Result<Rig, ArmError> {
+    pub fn rig(&self, path: &Path) -> Result<Rig, ConfigError> {
         let spec = self.rig.as_ref().ok_or_else(|| absent(path, "rig"))?;
         let arm = self.simulated_arm(path)?;
         if arm.dynamics().len() > COORDINATES_MOST {
             let source = RigError::Unsupported { what: "more than 150 masses" };
-            return Err(ArmError::Rig { file: path.to_owned(), source });
+            return Err(ConfigError::of_arm(path, source));
         }
-        let failed = |source| ArmError::Rig { file: path.to_owned(), source };
+        let failed = |source: RigError| ConfigError::of_arm(path, source);
         let instruments = instruments(spec).map_err(failed)?;
         let controller = match &spec.controller {
             Some(controller) => law(controller, &instruments).map_err(failed)?,
@@ -55,27 +57,27 @@ impl ArmFile {
     ///
     /// # Errors
     /// As [`arm`](Self::arm).
-    pub fn simulated_arm(&self, path: &Path) -> Result<Arm, ArmError> {
+    pub fn simulated_arm(&self, path: &Path) -> Result<Arm, ConfigError> {
         if self.rigid || self.beam_kind(path)? != BeamKind::Distributed {
             return self.arm(path);
         }
         let count = self.rig.as_ref().and_then(|rig| rig.masses).unwrap_or(MASSES);
         let (motor, coulomb) = self.motor(path)?.ok_or_else(|| absent(path, "drive"))?;
-        let failed = |source| ArmError::Beam { file: path.to_owned(), source };
+        let failed = |source: BeamError| ConfigError::of_arm(path, source);
         let beam = self.distributed_beam(path)?.lumped(count).map_err(failed)?;
         Arm::new(beam, motor, coulomb).map_err(failed)
     }
 
-    fn scene(&self, path: &Path, arm: &Arm) -> Result<Scene, ArmError> {
-        let drive_failed = |source| ArmError::Drive { file: path.to_owned(), source };
-        let rig_failed = |source| ArmError::Rig { file: path.to_owned(), source };
-        let beam_failed = |source| ArmError::Beam { file: path.to_owned(), source };
+    fn scene(&self, path: &Path, arm: &Arm) -> Result<Scene, ConfigError> {
+        let drive_failed = |source: DriveError| ConfigError::of_arm(path, source);
+        let rig_failed = |source: RigError| ConfigError::of_arm(path, source);
+        let beam_failed = |source: BeamError| ConfigError::of_arm(path, source);
         let friction = match &self.drive {
             Some(drive) => drive.friction.joint(arm.coulomb).map_err(drive_failed)?,
             None => JointFriction::Arm,
         };
         if self.load.is_some() && !self.rigid {
-            return Err(ArmError::LoadOnBeam { file: path.to_owned() });
+            return Err(load_on_beam(path));
         }
         let gravity = self.load.map(|load| load.gravity());
         let torque_ripples =

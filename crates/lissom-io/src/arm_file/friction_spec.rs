@@ -6,7 +6,7 @@ use lissom_core::replay::WithLoad;
 use lissom_core::rig::JointFriction;
 
 use super::load_spec;
-use crate::config::{ConfigError, Rule, Table, Value};
+use crate::config::{ConfigError, Table, Value};
 use crate::units::Dimension;
 
 /// Friction of a joint in addition to Coulomb friction by direction and one viscous coefficient.
@@ -65,9 +65,6 @@ pub struct RippleSpec {
 }
 
 impl FrictionSpec {
-    /// The keys of this friction in `[drive]`.
-    pub(super) const KEYS: [&'static str; 5] = ["rest", "ripple", "root", "with_load", "bristles"];
-
     /// Reads the keys; `load` is the one of the table `[load]`.
     pub(super) fn read(
         drive: &Table<'_>,
@@ -81,14 +78,13 @@ impl FrictionSpec {
         if let Some(bristles) = drive.get("bristles") {
             bristles_fit(drive, &bristles)?;
         }
-        let root = drive.get("root").map(|v| root(&v.table()?, &torque)).transpose()?;
         Ok(Self {
             viscous_apart_nm_s_per_rad,
-            root_nm_per_root_rad_s: root,
-            with_load: drive.get("with_load").map(|v| with_load(&v, load)).transpose()?,
-            rest: drive.get("rest").map(|v| rest(&v.table()?, torque)).transpose()?,
-            ripple: drive.get("ripple").map(|v| ripple(&v.table()?)).transpose()?,
-            bristles: drive.get("bristles").map(|v| bristles(&v.table()?)).transpose()?,
+            root_nm_per_root_rad_s: drive.optional("root", |v| root(&v.table()?, &torque))?,
+            with_load: drive.optional("with_load", |v| with_load(v, load))?,
+            rest: drive.optional("rest", |v| rest(&v.table()?, torque))?,
+            ripple: drive.optional("ripple", |v| ripple(&v.table()?))?,
+            bristles: drive.optional("bristles", |v| bristles(&v.table()?))?,
         })
     }
 
@@ -132,7 +128,7 @@ pub(super) fn by_direction(
 ) -> Result<(f64, f64), ConfigError> {
     match value.as_table() {
         Some(table) => {
-            table.only(&["forward", "backward"])?;
+            table.only("forward backward")?;
             let side = |key| read(&table.need(key)?);
             Ok((side("forward")?, side("backward")?))
         }
@@ -144,10 +140,10 @@ fn rest(
     table: &Table<'_>,
     torque: impl Fn(&Value<'_>) -> Result<f64, ConfigError>,
 ) -> Result<RestSpec, ConfigError> {
-    table.only(&["friction", "velocity", "falloff"])?;
+    table.only("friction velocity falloff")?;
     let (forward_nm, backward_nm) = by_direction(&table.need("friction")?, torque)?;
     let shapes = [Falloff::Exponential, Falloff::Gaussian];
-    let falloff = table.get("falloff").map(|v| v.choice(&shapes.map(Falloff::name))).transpose()?;
+    let falloff = table.optional("falloff", |v| v.choice(&shapes.map(Falloff::name)))?;
     Ok(RestSpec {
         forward_nm,
         backward_nm,
@@ -157,17 +153,16 @@ fn rest(
 }
 
 fn ripple(table: &Table<'_>) -> Result<RippleSpec, ConfigError> {
-    table.only(&["share", "per_turn", "phase"])?;
+    table.only("share per_turn phase")?;
     let value = table.need("share")?;
     let share = value.not_negative(Dimension::NUMBER)?;
     if share >= 1.0 {
-        return Err(value.range(Rule::Below(1.0)));
+        return Err(value.range("below 1"));
     }
-    let phase = table.get("phase").map(|v| v.quantity(Dimension::NUMBER));
     Ok(RippleSpec {
         share,
         per_turn: table.need("per_turn")?.positive(Dimension::NUMBER)?,
-        phase_rad: phase.transpose()?.unwrap_or(0.0),
+        phase_rad: table.any("phase", Dimension::NUMBER)?.unwrap_or(0.0),
     })
 }
 
@@ -176,30 +171,30 @@ fn root(
     table: &Table<'_>,
     torque: impl Fn(&Value<'_>) -> Result<f64, ConfigError>,
 ) -> Result<f64, ConfigError> {
-    table.only(&["friction", "velocity"])?;
+    table.only("friction velocity")?;
     let velocity = table.need("velocity")?.positive(Dimension::RATE)?;
     Ok(torque(&table.need("friction")?)? / velocity.sqrt())
 }
 
 /// A coefficient, with the load of the table `[load]` or its own.
 fn with_load(value: &Value<'_>, load: Option<GravityLoad>) -> Result<WithLoad, ConfigError> {
-    let needs = || ConfigError::Needs { place: value.place(), key: "load" };
+    let needs = || value.needs("load");
     let Some(table) = value.as_table() else {
         let coefficient = value.not_negative(Dimension::NUMBER)?;
         return Ok(WithLoad { coefficient, load: load.ok_or_else(needs)? });
     };
-    table.only(&["coefficient", "gravity_torque", "phase"])?;
+    table.only("coefficient gravity_torque phase")?;
     let coefficient = table.need("coefficient")?.not_negative(Dimension::NUMBER)?;
     Ok(WithLoad { coefficient, load: load_spec::keys(&table)?.gravity() })
 }
 
 fn bristles(table: &Table<'_>) -> Result<BristlesSpec, ConfigError> {
-    table.only(&["stiffness", "damping", "tolerance"])?;
-    let damping = table.get("damping").map(|v| v.not_negative(Dimension::VISCOUS_ROTARY));
-    let tolerance = table.get("tolerance").map(|v| v.positive(Dimension::NUMBER)).transpose()?;
+    table.only("stiffness damping tolerance")?;
+    let damping = table.not_negative("damping", Dimension::VISCOUS_ROTARY)?;
+    let tolerance = table.positive("tolerance", Dimension::NUMBER)?;
     Ok(BristlesSpec {
         stiffness_nm_per_rad: table.need("stiffness")?.positive(Dimension::TORQUE)?,
-        damping_nm_s_per_rad: damping.transpose()?.unwrap_or(0.0),
+        damping_nm_s_per_rad: damping.unwrap_or(0.0),
         tolerance: tolerance.unwrap_or(TOLERANCE),
     })
 }
@@ -207,14 +202,11 @@ fn bristles(table: &Table<'_>) -> Result<BristlesSpec, ConfigError> {
 /// Checks that bristles have Coulomb friction, and a Gaussian falloff from rest.
 fn bristles_fit(drive: &Table<'_>, bristles: &Value<'_>) -> Result<(), ConfigError> {
     if drive.get("coulomb").is_none() {
-        return Err(ConfigError::Needs { place: bristles.place(), key: "drive.coulomb" });
+        return Err(bristles.needs("drive.coulomb"));
     }
     if let Some(sides) = drive.get("viscous").filter(|v| v.as_table().is_some()) {
         return Err(sides.kind("one number for both directions (with `bristles`)"));
     }
     let falloff = drive.get("rest").and_then(|v| v.as_table()).and_then(|t| t.get("falloff"));
-    match falloff {
-        Some(value) => value.choice(&["gaussian"]).map(|_| ()),
-        None => Ok(()),
-    }
+    falloff.map_or(Ok(()), |value| value.choice(&["gaussian"]).map(|_| ()))
 }

@@ -75,7 +75,6 @@ mod rig_spec;
 mod tests;
 mod tip_spec;
 
-pub use arm_error::ArmError;
 pub use arm_spec::ArmFile;
 pub use beam_spec::{BeamKind, BeamSpec, SpanSpec};
 pub use drive_spec::DriveSpec;

@@ -2,7 +2,7 @@
 
 use lissom_core::rig::Word;
 
-use crate::config::{ConfigError, Rule, Table, Value};
+use crate::config::{ConfigError, Table, Value};
 use crate::units::Dimension;
 
 /// A test rig with a sampled controller.
@@ -94,41 +94,26 @@ const EVERY_MOST: i64 = 1_000_000;
 const MASSES_MOST: i64 = 150;
 
 pub(super) fn rig(table: &Table<'_>) -> Result<RigSpec, ConfigError> {
-    table.only(&[
-        "sample_time",
-        "control_every",
-        "log_every",
-        "current_limit",
-        "dead_band",
-        "current_converter",
-        "delay",
-        "motor_sensor",
-        "tip_sensors",
-        "controller",
-        "masses",
-    ])?;
+    table.only(
+        "sample_time control_every log_every current_limit dead_band current_converter delay \
+         motor_sensor tip_sensors controller masses",
+    )?;
     let count = |key, most| -> Result<Option<usize>, ConfigError> {
-        let count = table.get(key).map(|v| v.whole(1, most)).transpose()?;
+        let count = table.optional(key, |v| v.whole(1, most))?;
         Ok(count.and_then(|c| usize::try_from(c).ok()))
     };
-    let limit = table.get("current_limit").map(|v| v.positive(Dimension::CURRENT));
-    let dead_band = table.get("dead_band").map(|v| v.not_negative(Dimension::CURRENT));
-    let delay = table.get("delay").map(|v| v.not_negative(Dimension::TIME));
-    let tips = table.get("tip_sensors").map(|v| v.one_or_list().iter().map(sensor).collect());
     Ok(RigSpec {
         sample_time_s: table.need("sample_time")?.positive(Dimension::TIME)?,
         control_every: count("control_every", EVERY_MOST)?.unwrap_or(1),
         log_every: count("log_every", EVERY_MOST)?.unwrap_or(1),
-        current_limit_a: limit.transpose()?,
-        dead_band_a: dead_band.transpose()?,
-        current_converter: table
-            .get("current_converter")
-            .map(|v| converter(&v.table()?))
-            .transpose()?,
-        delay_s: delay.transpose()?,
-        motor_sensor: table.get("motor_sensor").map(|v| sensor(&v)).transpose()?,
-        tip_sensors: tips.transpose()?,
-        controller: table.get("controller").map(|v| controller(&v.table()?)).transpose()?,
+        current_limit_a: table.positive("current_limit", Dimension::CURRENT)?,
+        dead_band_a: table.not_negative("dead_band", Dimension::CURRENT)?,
+        current_converter: table.optional("current_converter", |v| converter(&v.table()?))?,
+        delay_s: table.not_negative("delay", Dimension::TIME)?,
+        motor_sensor: table.optional("motor_sensor", sensor)?,
+        tip_sensors: table
+            .optional("tip_sensors", |v| v.one_or_list().iter().map(sensor).collect())?,
+        controller: table.optional("controller", |v| controller(&v.table()?))?,
         masses: count("masses", MASSES_MOST)?,
     })
 }
@@ -138,14 +123,14 @@ fn bits(table: &Table<'_>) -> Result<u32, ConfigError> {
 }
 
 fn converter(table: &Table<'_>) -> Result<ConverterSpec, ConfigError> {
-    table.only(&["bits", "range"])?;
+    table.only("bits range")?;
     let range_a = table.need("range")?.positive(Dimension::CURRENT)?;
     Ok(ConverterSpec { bits: bits(table)?, range_a })
 }
 
 fn sensor(value: &Value<'_>) -> Result<SensorSpec, ConfigError> {
     let table = value.table()?;
-    table.only(&["bits", "range", "counts_per_turn", "noise"])?;
+    table.only("bits range counts_per_turn noise")?;
     let steps = match table.one_of(&["bits", "counts_per_turn"])? {
         Some((0, _)) => Some(SensorSteps::Bits {
             bits: bits(&table)?,
@@ -160,45 +145,35 @@ fn sensor(value: &Value<'_>) -> Result<SensorSpec, ConfigError> {
     if let Some(range) =
         table.get("range").filter(|_| !matches!(steps, Some(SensorSteps::Bits { .. })))
     {
-        return Err(ConfigError::Needs { place: range.place(), key: "bits" });
+        return Err(range.needs("bits"));
     }
-    let noise = table.get("noise").map(|v| v.positive(Dimension::NUMBER));
-    Ok(SensorSpec { steps, noise_rad: noise.transpose()? })
+    Ok(SensorSpec { steps, noise_rad: table.positive("noise", Dimension::NUMBER)? })
 }
 
 fn controller(table: &Table<'_>) -> Result<ControllerSpec, ConfigError> {
-    table.only(&["proportional", "derivative", "integral", "filter", "integers"])?;
-    let gain = |key, dimension| table.get(key).map(|v| v.not_negative(dimension)).transpose();
-    let derivative = gain("derivative", Dimension::TORQUE_PER_VOLTAGE)?;
-    let integral = gain("integral", Dimension::CURRENT_RATE)?;
-    let filter = gain("filter", Dimension::TIME)?;
-    let integers = match table.get("integers") {
-        None => None,
-        Some(value) => {
-            if let Some(other) = ["integral", "filter"].into_iter().find(|k| table.get(k).is_some())
-            {
-                let place = table.place();
-                return Err(ConfigError::Clash { place, first: "integers", second: other });
-            }
-            Some(integer(&value.table()?)?)
-        }
-    };
+    table.only("proportional derivative integral filter integers")?;
+    let derivative = table.not_negative("derivative", Dimension::TORQUE_PER_VOLTAGE)?;
+    let integral_a_per_rad_s = table.not_negative("integral", Dimension::CURRENT_RATE)?;
+    let filter_s = table.not_negative("filter", Dimension::TIME)?;
+    for other in ["integral", "filter"] {
+        table.one_of(&["integers", other])?;
+    }
     Ok(ControllerSpec {
         proportional_a_per_rad: table.need("proportional")?.not_negative(Dimension::CURRENT)?,
         derivative_a_s_per_rad: derivative.unwrap_or(0.0),
-        integral_a_per_rad_s: integral,
-        filter_s: filter,
-        integers,
+        integral_a_per_rad_s,
+        filter_s,
+        integers: table.optional("integers", |v| integer(&v.table()?))?,
     })
 }
 
 fn integer(table: &Table<'_>) -> Result<IntegerSpec, ConfigError> {
-    table.only(&["word", "binary_point"])?;
+    table.only("word binary_point")?;
     let value = table.need("word")?;
     let word = match value.whole(16, 32)? {
         16 => Word::Short,
         32 => Word::Long,
-        _ => return Err(value.range(Rule::OneOf(16, 32))),
+        _ => return Err(value.range("16 or 32")),
     };
     let most = i64::from(word.bits()) - 1;
     let point = table.need("binary_point")?.whole(0, most)?;

@@ -50,28 +50,21 @@ pub enum SignalSpec {
 }
 
 pub(super) fn tip(table: &Table<'_>) -> Result<TipSpec, ConfigError> {
-    table.only(&["force", "torque", "viscous", "coulomb", "walls", "payloads"])?;
-    let not_negative =
-        |key, dimension| table.get(key).map(|v| v.not_negative(dimension)).transpose();
-    let walls = table.get("walls").map_or(Ok(Vec::new()), |v| {
-        v.list("a list of walls")?.iter().map(|v| wall(&v.table()?)).collect()
-    });
-    let payloads = table.get("payloads").map_or(Ok(Vec::new()), |v| {
-        v.list("a list of payloads, each with `at`")?.iter().map(|v| change(&v.table()?)).collect()
-    });
+    table.only("force torque viscous coulomb walls payloads")?;
     Ok(TipSpec {
-        force: table.get("force").map(|v| signal(&v, Dimension::FORCE)).transpose()?,
-        torque: table.get("torque").map(|v| signal(&v, Dimension::TORQUE)).transpose()?,
-        viscous_n_s_per_m: not_negative("viscous", Dimension::VISCOUS_LINEAR)?.unwrap_or(0.0),
-        coulomb_n: not_negative("coulomb", Dimension::FORCE)?.unwrap_or(0.0),
-        walls: walls?,
-        payloads: payloads?,
+        force: table.optional("force", |v| signal(v, Dimension::FORCE))?,
+        torque: table.optional("torque", |v| signal(v, Dimension::TORQUE))?,
+        viscous_n_s_per_m: table.not_negative("viscous", Dimension::VISCOUS_LINEAR)?.unwrap_or(0.0),
+        coulomb_n: table.not_negative("coulomb", Dimension::FORCE)?.unwrap_or(0.0),
+        walls: table.items("walls", "a list of walls", |v| wall(&v.table()?))?,
+        payloads: table
+            .items("payloads", "a list of payloads, each with `at`", |v| change(&v.table()?))?,
     })
 }
 
 fn wall(table: &Table<'_>) -> Result<Wall, ConfigError> {
-    table.only(&["angle", "stiffness", "side"])?;
-    let side = table.get("side").map(|v| v.choice(&["ahead", "behind"])).transpose()?;
+    table.only("angle stiffness side")?;
+    let side = table.optional("side", |v| v.choice(&["ahead", "behind"]))?;
     Ok(Wall {
         angle_rad: table.need("angle")?.quantity(Dimension::NUMBER)?,
         stiffness_n_per_m: table.need("stiffness")?.positive(Dimension::STIFFNESS)?,
@@ -80,7 +73,7 @@ fn wall(table: &Table<'_>) -> Result<Wall, ConfigError> {
 }
 
 fn change(table: &Table<'_>) -> Result<(f64, Payload), ConfigError> {
-    table.only(&["at", "mass", "inertia", "offset"])?;
+    table.only("at mass inertia offset")?;
     let at = table.need("at")?.positive(Dimension::TIME)?;
     // Without any of these keys the payload is removed.
     let bare = ["mass", "inertia", "offset"].iter().all(|key| table.get(key).is_none());
@@ -92,16 +85,15 @@ fn signal(value: &Value<'_>, dimension: Dimension) -> Result<SignalSpec, ConfigE
         return value.quantity(dimension).map(SignalSpec::Constant);
     };
     if table.get("times").is_none() {
-        table.only(&["amplitude", "frequency", "omega_rad_s", "phase", "offset"])?;
-        let given = |key, dimension| table.get(key).map(|v| v.quantity(dimension)).transpose();
+        table.only("amplitude frequency omega_rad_s phase offset")?;
         return Ok(SignalSpec::Sine {
-            offset: given("offset", dimension)?.unwrap_or(0.0),
+            offset: table.any("offset", dimension)?.unwrap_or(0.0),
             amplitude: table.need("amplitude")?.quantity(dimension)?,
             omega_rad_s: omega(&table)?,
-            phase_rad: given("phase", Dimension::NUMBER)?.unwrap_or(0.0),
+            phase_rad: table.any("phase", Dimension::NUMBER)?.unwrap_or(0.0),
         });
     }
-    table.only(&["times", "values", "hold"])?;
+    table.only("times values hold")?;
     let column = |key, dimension| -> Result<Vec<f64>, ConfigError> {
         table.need(key)?.list("a list")?.iter().map(|v| v.quantity(dimension)).collect()
     };
@@ -113,7 +105,7 @@ fn signal(value: &Value<'_>, dimension: Dimension) -> Result<SignalSpec, ConfigE
     if times.len() != values.len() {
         return Err(table.need("values")?.kind("a list as long as `times`"));
     }
-    let hold = table.get("hold").map(|v| v.choice(&["steps", "lines"])).transpose()?;
+    let hold = table.optional("hold", |v| v.choice(&["steps", "lines"]))?;
     Ok(SignalSpec::Table { rows: times.into_iter().zip(values).collect(), lines: hold == Some(1) })
 }
 
@@ -122,9 +114,6 @@ pub(crate) fn omega(table: &Table<'_>) -> Result<f64, ConfigError> {
     match table.one_of(&["frequency", "omega_rad_s"])? {
         Some((0, value)) => value.positive(Dimension::RATE),
         Some((_, value)) => value.positive(Dimension::NUMBER),
-        None => {
-            let keys = vec!["frequency", "omega_rad_s"];
-            Err(ConfigError::NoneOf { place: table.place(), keys })
-        }
+        None => Err(table.none_of(&["frequency", "omega_rad_s"])),
     }
 }
