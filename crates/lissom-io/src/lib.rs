@@ -47,9 +47,8 @@ pub mod units;
 pub mod write;
 
 pub use arm_file::{
-    ArmFile, BeamKind, BeamSpec, BristlesSpec, ControllerSpec, ConverterSpec, DriveSpec,
-    FrictionSpec, IntegerSpec, LoadSpec, RestSpec, RigSpec, RippleSpec, SensorSpec, SensorSteps,
-    SignalSpec, SpanSpec, TipSpec,
+    ArmFile, BeamKind, BeamSpec, BristlesSpec, DriveSpec, FrictionSpec, LoadSpec, RestSpec,
+    RigSpec, RippleSpec, SpanSpec, TipSpec,
 };
 pub use campaign::{
     AnalysisOptions, CampaignFile, CampaignReader, DriveConstants, MemoryLogs, ReadOptions,

@@ -6,21 +6,27 @@ use lissom_core::Error as CoreError;
 use lissom_core::beam::BeamError;
 use lissom_core::rig::RigError;
 
-use crate::config::ConfigError;
+use crate::config::{ConfigError, ConfigPlace};
 
 impl ConfigError {
     /// An `arm.toml` whose numbers make no arm or rig.
     pub fn of_arm(file: &Path, source: impl Into<CoreError>) -> Self {
-        let source = source.into();
-        let hint = match &source {
-            CoreError::Beam(error) => beam_hint(error),
-            CoreError::Rig(RigError::Unsupported { .. }) => {
-                "use fewer spans, or set `masses` in [rig] for a beam with mass along it"
-            }
-            _ => CHECK,
-        };
-        Self::of_file(file, source, hint)
+        let place = ConfigPlace { file: file.display().to_string(), ..ConfigPlace::default() };
+        unusable(place, source)
     }
+}
+
+/// Numbers at a place that make no part of an arm or rig.
+pub(super) fn unusable(place: ConfigPlace, source: impl Into<CoreError>) -> ConfigError {
+    let source = source.into();
+    let hint = match &source {
+        CoreError::Beam(error) => beam_hint(error),
+        CoreError::Rig(RigError::Unsupported { .. }) => {
+            "use fewer spans, or set `masses` in [rig] for a beam with mass along it"
+        }
+        _ => CHECK,
+    };
+    ConfigError::new(place, format!(": {source}"), hint)
 }
 
 const CHECK: &str = "check the numbers and their units";

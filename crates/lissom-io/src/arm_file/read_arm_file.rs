@@ -21,7 +21,7 @@ impl ArmFile {
     /// ```
     /// let text = "[rig]\nsample_time = \"3 ms\"";
     /// let arm = lissom_io::ArmFile::from_text("arm.toml".as_ref(), text)?;
-    /// assert_eq!(arm.rig.map(|rig| rig.sample_time_s), Some(0.003));
+    /// assert_eq!(arm.rig.map(|rig| rig.instruments.sample_time_s), Some(0.003));
     /// # Ok::<(), lissom_io::Error>(())
     /// ```
     ///

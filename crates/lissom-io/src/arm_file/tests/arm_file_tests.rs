@@ -7,7 +7,8 @@ use std::path::Path;
 use proptest::prelude::*;
 
 use super::arm_fixture::{ARM, fails, near, read};
-use crate::arm_file::{ArmFile, ControllerSpec, DriveSpec, RigSpec, SensorSpec, SensorSteps};
+use crate::arm_file::{ArmFile, DriveSpec, RigSpec};
+use lissom_core::rig::{Amplifier, Instruments, Pd, Quantiser, Sensor};
 
 #[test]
 fn reads_an_arm() {
@@ -28,31 +29,15 @@ fn reads_an_arm() {
     near(coulomb_backward_nm, 0.132 * 2.184 * lbf_in);
     near(drive.inertia_kg_m2, 0.005_529 * lbf_in);
     near(drive.viscous_nm_s_per_rad, 0.012_16 * lbf_in);
-    assert_eq!(
-        arm.rig,
-        Some(RigSpec {
-            sample_time_s: 0.003,
-            control_every: 1,
-            log_every: 1,
-            current_limit_a: Some(4.12),
-            dead_band_a: None,
-            current_converter: None,
-            delay_s: None,
-            motor_sensor: Some(SensorSpec {
-                steps: Some(SensorSteps::Bits { bits: 12, range_rad: TAU }),
-                noise_rad: None
-            }),
-            tip_sensors: None,
-            controller: Some(ControllerSpec {
-                proportional_a_per_rad: 9.0,
-                derivative_a_s_per_rad: 0.2,
-                integral_a_per_rad_s: None,
-                filter_s: None,
-                integers: None,
-            }),
-            masses: None,
-        })
-    );
+    let motor = Sensor { noise: None, quantiser: Some(Quantiser::new(12, TAU).unwrap()) };
+    let instruments = Instruments {
+        motor,
+        tips: vec![motor],
+        amplifier: Amplifier::ideal().with_limit(4.12).unwrap(),
+        ..Instruments::ideal(0.003).unwrap()
+    };
+    let controller = Some(Pd::new(9.0, 0.2).unwrap().into());
+    assert_eq!(arm.rig, Some(RigSpec { instruments, controller, masses: None }));
 }
 
 #[test]
