@@ -47,8 +47,7 @@ pub mod units;
 pub mod write;
 
 pub use arm_file::{
-    ArmFile, BeamKind, BeamSpec, BristlesSpec, DriveSpec, FrictionSpec, LoadSpec, RestSpec,
-    RigSpec, RippleSpec, SpanSpec, TipSpec,
+    ArmFile, BeamKind, BeamSpec, DriveSpec, FrictionSpec, LoadSpec, RigSpec, SpanSpec, TipSpec,
 };
 pub use campaign::{
     AnalysisOptions, CampaignFile, CampaignReader, DriveConstants, MemoryLogs, ReadOptions,

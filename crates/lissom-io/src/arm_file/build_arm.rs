@@ -24,20 +24,17 @@ impl ArmFile {
         } else {
             self.lumped_beam(path)?.into()
         };
-        let (motor, coulomb) = self.motor(path)?.ok_or_else(|| absent(path, "drive"))?;
+        let (motor, coulomb) = self.motor(path)?;
         Arm::new(beam, motor, coulomb).map_err(|source| ConfigError::of_arm(path, source))
     }
 
-    /// Builds the drive, if the file describes one; `path` is the file's name in errors.
+    /// The motor and its Coulomb friction; `path` is the file's name in errors.
     ///
     /// # Errors
-    /// [`ConfigError`] if its numbers cannot be used.
-    pub fn motor(&self, path: &Path) -> Result<Option<(Motor, Coulomb)>, ConfigError> {
-        let Some(d) = &self.drive else { return Ok(None) };
-        let failed = |source| ConfigError::of_arm(path, source);
-        let motor = Motor::new(d.inertia_kg_m2, d.viscous_nm_s_per_rad, d.torque_constant_nm_per_a);
-        let coulomb = Coulomb::by_direction(d.coulomb_forward_nm, d.coulomb_backward_nm);
-        Ok(Some((motor.map_err(failed)?, coulomb.map_err(failed)?)))
+    /// [`ConfigError`] if `[drive]` is missing.
+    pub(crate) fn motor(&self, path: &Path) -> Result<(Motor, Coulomb), ConfigError> {
+        let drive = self.drive.as_ref().ok_or_else(|| absent(path, "drive"))?;
+        Ok((drive.motor, drive.coulomb))
     }
 
     /// Tells how the table `[beam]` describes the beam; `path` is the file's name in errors.

@@ -4,8 +4,7 @@ use std::path::Path;
 
 use lissom_core::arm::Arm;
 use lissom_core::beam::BeamError;
-use lissom_core::drive::DriveError;
-use lissom_core::rig::{JointFriction, Pd, Rig, RigError, Scene};
+use lissom_core::rig::{Pd, Rig, RigError, Scene};
 
 use super::arm_error::{absent, load_on_beam};
 use super::arm_spec::ArmFile;
@@ -56,19 +55,15 @@ impl ArmFile {
             return self.arm(path);
         }
         let count = self.rig.as_ref().and_then(|rig| rig.masses).unwrap_or(MASSES);
-        let (motor, coulomb) = self.motor(path)?.ok_or_else(|| absent(path, "drive"))?;
+        let (motor, coulomb) = self.motor(path)?;
         let failed = |source: BeamError| ConfigError::of_arm(path, source);
         let beam = self.distributed_beam(path)?.lumped(count).map_err(failed)?;
         Arm::new(beam, motor, coulomb).map_err(failed)
     }
 
     fn scene(&self, path: &Path, arm: &Arm) -> Result<Scene, ConfigError> {
-        let drive_failed = |source: DriveError| ConfigError::of_arm(path, source);
         let beam_failed = |source: BeamError| ConfigError::of_arm(path, source);
-        let friction = match &self.drive {
-            Some(drive) => drive.friction.joint(arm.coulomb).map_err(drive_failed)?,
-            None => JointFriction::Arm,
-        };
+        let friction = self.drive.as_ref().map(|drive| drive.friction.joint()).unwrap_or_default();
         if self.load.is_some() && !self.rigid {
             return Err(load_on_beam(path));
         }

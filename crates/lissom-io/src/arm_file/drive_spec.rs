@@ -1,7 +1,9 @@
 //! The table `[drive]`: a motor and its friction.
 
+use lissom_core::drive::{Coulomb, DriveError, Motor};
 use lissom_core::load::{GravityLoad, TorqueRipple};
 
+use super::arm_error::unusable;
 use super::friction_spec::{FrictionSpec, by_direction};
 use crate::config::{ConfigError, Table, Value};
 use crate::units::Dimension;
@@ -9,17 +11,13 @@ use crate::units::Dimension;
 /// A motor with friction, referred to the joint.
 #[derive(Debug, Clone, PartialEq)]
 pub struct DriveSpec {
-    /// Inertia \[kg·m²\].
-    pub inertia_kg_m2: f64,
-    /// Viscous friction, mean of both directions \[N·m·s/rad\].
-    pub viscous_nm_s_per_rad: f64,
-    /// Torque constant \[N·m/A\].
-    pub torque_constant_nm_per_a: f64,
-    /// Coulomb friction in forward motion, a magnitude \[N·m\].
-    pub coulomb_forward_nm: f64,
-    /// Coulomb friction in backward motion, a magnitude \[N·m\].
-    pub coulomb_backward_nm: f64,
-    /// Friction that is not constant.
+    /// The motor; its viscous friction is the mean of both directions.
+    pub motor: Motor,
+    /// Coulomb friction.
+    pub coulomb: Coulomb,
+    /// Half the difference of forward and backward viscous friction \[N·m·s/rad\].
+    pub viscous_apart_nm_s_per_rad: f64,
+    /// Friction with what is not constant.
     pub friction: FrictionSpec,
     /// Torque ripples (cogging) of the motor.
     pub torque_ripples: Vec<TorqueRipple>,
@@ -40,14 +38,16 @@ pub(super) fn drive(
     let in_torque = |value: &Value<'_>| torque(value, torque_constant);
     let coulomb = table.optional("coulomb", |v| by_direction(v, in_torque))?;
     let (forward, backward) = coulomb.unwrap_or_default();
+    let failed = |source: DriveError| unusable(table.place(), source);
+    let inertia = table.need("inertia")?.positive(Dimension::INERTIA)?;
+    let viscous = 0.5 * (viscous_forward + viscous_backward);
+    let coulomb = Coulomb::by_direction(forward, backward).map_err(failed)?;
     let apart = 0.5 * (viscous_forward - viscous_backward);
     Ok(DriveSpec {
-        inertia_kg_m2: table.need("inertia")?.positive(Dimension::INERTIA)?,
-        viscous_nm_s_per_rad: 0.5 * (viscous_forward + viscous_backward),
-        torque_constant_nm_per_a: torque_constant,
-        coulomb_forward_nm: forward,
-        coulomb_backward_nm: backward,
-        friction: FrictionSpec::read(table, load, apart, in_torque)?,
+        motor: Motor::new(inertia, viscous, torque_constant).map_err(failed)?,
+        coulomb,
+        viscous_apart_nm_s_per_rad: apart,
+        friction: FrictionSpec::read(table, coulomb, load, apart, in_torque)?,
         torque_ripples: table.items("torque_ripples", WAVES, |value| {
             let table = value.table()?;
             table.only("torque per_turn phase")?;

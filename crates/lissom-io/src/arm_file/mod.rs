@@ -78,7 +78,7 @@ mod tip_spec;
 pub use arm_spec::ArmFile;
 pub use beam_spec::{BeamKind, BeamSpec, SpanSpec};
 pub use drive_spec::DriveSpec;
-pub use friction_spec::{BristlesSpec, FrictionSpec, RestSpec, RippleSpec};
+pub use friction_spec::FrictionSpec;
 pub use load_spec::LoadSpec;
 pub use rig_spec::RigSpec;
 pub use tip_spec::TipSpec;

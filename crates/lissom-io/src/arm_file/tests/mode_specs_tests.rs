@@ -43,7 +43,7 @@ fn a_written_arm_is_read_as_it_was() {
         arm_text(&WrittenArm { motor, coulomb: Some(coulomb), beam: &beam, points: &points });
     let file = read(&text).unwrap();
     assert_eq!(file.modal_beam(path).unwrap(), beam);
-    assert_eq!(file.motor(path).unwrap(), Some((motor, coulomb)));
+    assert_eq!(file.motor(path).unwrap(), (motor, coulomb));
 }
 
 #[test]
