@@ -3,14 +3,11 @@
 use lissom_core::record::RecordError;
 use thiserror::Error;
 
-use crate::arm_file::arm_error::ArmError;
-use crate::campaign::campaign_error::CampaignError;
 use crate::config::ConfigError;
 use crate::export::ExportError;
 use crate::inspect::DraftError;
 use crate::log::LogError;
 use crate::model::frequency_file::FrequencyError;
-use crate::plan::plan_error::PlanError;
 use crate::responses::ResponseError;
 use crate::result::ComparisonError;
 use crate::result::result_error::ResultError;
@@ -27,21 +24,12 @@ pub enum Error {
     /// A log cannot be used.
     #[error(transparent)]
     Log(#[from] LogError),
-    /// A key or value of a TOML file is wrong.
+    /// A campaign.toml, arm.toml or other file of keys and values cannot be used.
     #[error(transparent)]
     Config(#[from] ConfigError),
-    /// An `arm.toml` describes no usable arm.
-    #[error(transparent)]
-    Arm(#[from] ArmError),
-    /// The experiments of a plan cannot be used.
-    #[error(transparent)]
-    Plan(#[from] PlanError),
     /// A list of frequencies cannot be used.
     #[error(transparent)]
     Frequencies(#[from] FrequencyError),
-    /// The signals or the drive of a campaign are wrong.
-    #[error(transparent)]
-    Campaign(#[from] CampaignError),
     /// The runs do not form a campaign.
     #[error(transparent)]
     Record(#[from] RecordError),
@@ -72,17 +60,14 @@ impl Error {
             Self::Unit(error) => error.hint(),
             Self::Log(error) => error.hint(),
             Self::Config(error) => error.hint(),
-            Self::Arm(error) => error.hint(),
-            Self::Plan(error) => error.hint(),
             Self::Frequencies(error) => error.hint(),
-            Self::Campaign(error) => error.hint(),
             Self::Responses(error) => error.hint(),
             Self::Result(error) => error.hint(),
             Self::Draft(error) => error.hint(),
             Self::Comparison(error) => error.hint(),
             Self::Export(error) => error.hint(),
             Self::Write(error) => error.hint(),
-            // Readers do not create such runs: see [`LogError`] and [`CampaignError`].
+            // Readers do not create such runs: see [`LogError`] and [`ConfigError`].
             Self::Record(_) => None,
         }
     }

@@ -47,22 +47,20 @@ pub mod units;
 pub mod write;
 
 pub use arm_file::{
-    ArmError, ArmFile, BeamKind, BeamSpec, BristlesSpec, ControllerSpec, ConverterSpec, DriveSpec,
-    FrictionSpec, IntegerSpec, LoadSpec, RestSpec, RigSpec, RippleSpec, SensorSpec, SensorSteps,
-    SignalSpec, SpanSpec, TipSpec,
+    ArmFile, BeamKind, BeamSpec, DriveSpec, FrictionSpec, LoadSpec, RigSpec, SpanSpec, TipSpec,
 };
 pub use campaign::{
-    AnalysisOptions, CampaignError, CampaignFile, CampaignReader, DriveConstants, MemoryLogs,
-    ReadOptions, read_campaign, read_campaign_like,
+    AnalysisOptions, CampaignFile, CampaignReader, DriveConstants, MemoryLogs, ReadOptions,
+    read_campaign, read_campaign_like,
 };
 pub use comparison::{DemoFile, FiguresFile};
-pub use config::{ConfigError, ConfigPlace, Rule};
+pub use config::{ConfigError, ConfigPlace};
 pub use effort_name::EffortName;
 pub use io_error::Error;
 pub use log::LogError;
 pub use model::{FrequencyError, Model, ModelFile, read_frequencies};
 pub use nearest::nearest;
-pub use plan::{PlanError, PlanFile, PlanRun};
+pub use plan::{PlanFile, PlanRun};
 pub use planned::PlannedFile;
 pub use read_text::read_text;
 pub use responses::{

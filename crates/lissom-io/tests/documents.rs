@@ -59,7 +59,6 @@ fn read_as_arm(block: &str) {
         Some(BeamKind::Modal) => drop(file.modal_beam(path).unwrap()),
         None => {}
     }
-    file.motor(path).unwrap();
     if file.rig.is_some() && file.beam_kind(path).is_ok() {
         file.rig(path).unwrap();
     }

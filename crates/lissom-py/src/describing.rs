@@ -29,15 +29,11 @@ pub(crate) fn describe(
         let choice = |text: &String| Choice::parse(text);
         let role = |name: &str| said.get(name).map(choice).transpose();
         let text = |name: &str| said.get(name).cloned();
-        let mut goal = role("goal")?;
-        if let Some(goal) = &mut goal {
-            goal.keys.push(("quantity".to_owned(), "\"goal\"".to_owned()));
-        }
         let inputs = [
             (CommandKey::Current, role("current")?),
             (CommandKey::Voltage, role("voltage")?),
-            (CommandKey::Command, role("command")?),
-            (CommandKey::Command, goal),
+            (CommandKey::Torque, role("command")?),
+            (CommandKey::Goal, role("goal")?),
         ];
         let description = Description {
             time: role("time")?,

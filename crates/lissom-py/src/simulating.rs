@@ -2,7 +2,7 @@
 
 use std::path::{Path, PathBuf};
 
-use lissom::io::{ArmFile, PlanFile};
+use lissom::io::{ArmFile, ConfigError, PlanFile};
 use numpy::PyArray1;
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
@@ -20,10 +20,8 @@ pub(crate) fn text(
 ) -> PyResult<(PathBuf, String)> {
     match (path, text) {
         (Some(path), _) => {
-            let read = lissom::io::read_text(&path).map_err(|source| {
-                let file = path.display().to_string();
-                raised(py, lissom::io::Error::from(lissom::io::ConfigError::Read { file, source }))
-            })?;
+            let read = lissom::io::read_text(&path);
+            let read = read.map_err(|source| raised(py, ConfigError::unread(&path, source)))?;
             Ok((path, read))
         }
         (None, Some(text)) => Ok((PathBuf::from(name), text)),

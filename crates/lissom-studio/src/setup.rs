@@ -55,20 +55,8 @@ pub(crate) struct Pick {
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(crate) struct CommandPick {
-    pub(crate) kind: CommandKind,
+    pub(crate) kind: CommandKey,
     pub(crate) channel: Pick,
-}
-
-/// What a command is.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
-#[serde(rename_all = "kebab-case")]
-pub(crate) enum CommandKind {
-    Current,
-    Voltage,
-    /// A torque, or a number of unknown unit.
-    Torque,
-    /// The position reference of a servo.
-    Goal,
 }
 
 /// What of a log is left out.
@@ -208,17 +196,7 @@ impl Setup {
 
     fn command(&self, log: &Inspection) -> Result<Option<(CommandKey, Choice)>, Problem> {
         let Some(command) = &self.command else { return Ok(None) };
-        let Some(mut choice) = command.channel.choice(log)? else { return Ok(None) };
-        let key = match command.kind {
-            CommandKind::Current => CommandKey::Current,
-            CommandKind::Voltage => CommandKey::Voltage,
-            CommandKind::Torque => CommandKey::Command,
-            CommandKind::Goal => {
-                choice.keys.push(("quantity".to_owned(), quoted("goal")));
-                CommandKey::Command
-            }
-        };
-        Ok(Some((key, choice)))
+        Ok(command.channel.choice(log)?.map(|choice| (command.kind, choice)))
     }
 
     /// Says that the command is held between its samples, if nothing is said.

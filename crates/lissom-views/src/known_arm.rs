@@ -38,7 +38,7 @@ impl Reference {
     /// The arm.toml that a campaign gives for comparison; `None` if it gives none, or one without a drive.
     ///
     /// # Errors
-    /// [`lissom_io::Error::Arm`] if its numbers do not make an arm.
+    /// [`lissom_io::Error::Config`] if its numbers do not make an arm.
     pub fn of(file: &CampaignFile) -> Result<Option<Self>, lissom_io::Error> {
         let Some(arm) = &file.known.arm else { return Ok(None) };
         let Some(drive) = &arm.drive else { return Ok(None) };
@@ -50,9 +50,9 @@ impl Reference {
     fn drive(drive: &DriveSpec, arm: Option<Arm>) -> Self {
         Self {
             label: "arm.toml",
-            coulomb_nm: (drive.coulomb_forward_nm, drive.coulomb_backward_nm),
-            viscous_nm_s_per_rad: drive.viscous_nm_s_per_rad,
-            inertia_kg_m2: drive.inertia_kg_m2,
+            coulomb_nm: (drive.coulomb.forward(), drive.coulomb.backward()),
+            viscous_nm_s_per_rad: drive.motor.viscous_nm_s_per_rad(),
+            inertia_kg_m2: drive.motor.inertia_kg_m2(),
             gravity: None,
             arm,
         }

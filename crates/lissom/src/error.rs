@@ -56,15 +56,12 @@ macro_rules! from_file {
 }
 
 from_file!(
-    lissom_io::ArmError,
-    lissom_io::CampaignError,
     lissom_io::export::ExportError,
     lissom_io::inspect::DraftError,
     lissom_io::result::ComparisonError,
     lissom_io::ConfigError,
     lissom_io::FrequencyError,
     lissom_io::LogError,
-    lissom_io::PlanError,
     lissom_io::ResponseError,
     lissom_io::ResultError,
     lissom_io::UnitError,

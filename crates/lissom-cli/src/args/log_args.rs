@@ -96,15 +96,11 @@ impl LogArgs {
 
     /// What is said.
     pub(crate) fn description(&self) -> Description {
-        let goal = self.goal.clone().map(|mut goal| {
-            goal.keys.push(("quantity".to_owned(), "\"goal\"".to_owned()));
-            goal
-        });
         let inputs = [
             (CommandKey::Current, self.current.clone()),
             (CommandKey::Voltage, self.voltage.clone()),
-            (CommandKey::Command, self.command.clone()),
-            (CommandKey::Command, goal),
+            (CommandKey::Torque, self.command.clone()),
+            (CommandKey::Goal, self.goal.clone()),
         ];
         let drive = [
             ("torque_constant", self.torque_constant.clone()),
@@ -123,13 +119,11 @@ impl LogArgs {
             speed: self.speed.clone(),
             tips: self.tip.clone(),
             hold: self.hold.clone(),
-            hold_shown: None,
             drive: drive.into_iter().filter_map(|(k, v)| Some((k.to_owned(), v?))).collect(),
             gravity: self.gravity,
             mgl: self.mgl.clone(),
             skip: self.skip.clone(),
-            window: None,
-            trims: Vec::new(),
+            ..Description::default()
         }
     }
 }

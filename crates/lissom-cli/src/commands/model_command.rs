@@ -20,7 +20,7 @@ pub(crate) fn run(args: &ModelArgs) -> Result<ExitCode, Failure> {
     output_guard::guard(json_file, None)?;
     let file = ArmFile::read(&args.arm)?;
     let beam = Beam::of(&file, &args.arm).map_err(lissom_io::Error::from)?;
-    let drive = file.motor(&args.arm).map_err(lissom_io::Error::from)?;
+    let drive = file.drive.as_ref().map(|drive| (drive.motor, drive.coulomb));
     let omega_rad_s = args.omega.as_ref().map(frequencies).transpose()?;
     let functions = if args.all { beam.len().min(MOST_DENSE) } else { 0 };
     let steps = STEPS + functions + omega_rad_s.as_ref().map_or(0, Vec::len) + args.payload.len();

@@ -6,10 +6,11 @@ use lissom::beam::{
     Base, BeamError, BeamResponse, Damping, DistributedBeam, LumpedBeam, ModalBeam, Payload, Piece,
     Zeros,
 };
-use lissom_io::{ArmError, ArmFile, BeamKind};
+use lissom_io::{ArmFile, BeamKind, ConfigError};
 use num_complex::Complex64;
 
 use crate::args::model_args::Load;
+use crate::shared::failure::Failure;
 
 /// Largest number of masses for which matrices, transfer functions and the state space are computed. Their cost grows
 /// with the square and the cube of the number.
@@ -24,7 +25,7 @@ pub(crate) enum Beam {
 }
 
 impl Beam {
-    pub(crate) fn of(file: &ArmFile, path: &Path) -> Result<Self, ArmError> {
+    pub(crate) fn of(file: &ArmFile, path: &Path) -> Result<Self, ConfigError> {
         match file.beam_kind(path)? {
             BeamKind::Lumped => file.lumped_beam(path).map(Self::Lumped),
             BeamKind::Distributed => file.distributed_beam(path).map(Self::Distributed),
@@ -221,4 +222,9 @@ impl Beam {
             Self::Modal(_) => Err(BeamError::NoTip),
         }
     }
+}
+
+/// The failure for numbers of a beam that cannot be used.
+pub(crate) fn beam_failure(arm: &Path, source: BeamError) -> Failure {
+    lissom_io::Error::from(ConfigError::of_arm(arm, source)).into()
 }

@@ -4,11 +4,11 @@ use std::path::Path;
 
 use indicatif::ProgressBar;
 use lissom::beam::{Base, BeamError, RootClass, Zeros, class, zero_shift};
-use lissom_io::ArmError;
 use lissom_io::model::PayloadCase;
 use num_complex::Complex64;
 
-use super::any_beam::Beam;
+use super::any_beam::{Beam, beam_failure};
+
 use crate::args::model_args::Load;
 use crate::shared::failure::Failure;
 
@@ -21,8 +21,7 @@ pub(crate) fn study(
     bar: &ProgressBar,
 ) -> Result<Vec<PayloadCase>, Failure> {
     if let Beam::Modal(_) = beam {
-        let (file, source) = (path.to_owned(), BeamError::NoTip);
-        return Err(lissom_io::Error::from(ArmError::Beam { file, source }).into());
+        return Err(beam_failure(path, BeamError::NoTip));
     }
     let own = beam.load_kg();
     if own == 0.0 && loads.iter().any(|load| matches!(load, Load::Times(_))) {
@@ -39,9 +38,7 @@ pub(crate) fn study(
     for load in std::iter::once(None).chain(loads.iter().map(Some)) {
         let other = match load {
             None => beam.clone(),
-            Some(load) => beam.with_load(*load).map_err(|source| {
-                lissom_io::Error::from(ArmError::Beam { file: path.to_owned(), source })
-            })?,
+            Some(load) => beam.with_load(*load).map_err(|source| beam_failure(path, source))?,
         };
         let natural_frequencies_rad_s = other.frequencies_rad_s(Base::Clamped, count);
         if load.is_none() {

@@ -1,7 +1,6 @@
 //! The model of an arm, with everything that the options ask for.
 
 use std::f64::consts::TAU;
-use std::path::Path;
 
 use indicatif::ProgressBar;
 use lissom::arm::Arm;
@@ -11,12 +10,12 @@ use lissom::beam::{
 };
 use lissom::drive::{Coulomb, Motor};
 use lissom::lti::{StateSpace, ZeroPoleGain};
+use lissom_io::BeamKind;
 use lissom_io::model::{Function, Model, Responses};
-use lissom_io::{ArmError, BeamKind};
 use lissom_views::digits::shown;
 use num_complex::Complex64;
 
-use super::any_beam::{Beam, MOST_DENSE};
+use super::any_beam::{Beam, MOST_DENSE, beam_failure};
 use super::load_study;
 use crate::args::model_args::ModelArgs;
 use crate::shared::failure::Failure;
@@ -386,11 +385,6 @@ fn check_ratios(ratios: &[f64], model: &mut Model) {
             "a damping ratio of {ratio}: such a mode does not oscillate; write percent as \"{ratio} %\""
         ));
     }
-}
-
-/// The failure for numbers of a beam that cannot be used.
-pub(crate) fn beam_failure(arm: &Path, source: BeamError) -> Failure {
-    lissom_io::Error::from(ArmError::Beam { file: arm.to_owned(), source }).into()
 }
 
 /// The frequency at which θ_m/i of the state space has the largest relative error, and this error; `None` if it is at

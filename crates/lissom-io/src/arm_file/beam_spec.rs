@@ -3,7 +3,7 @@
 use lissom_core::beam::{Damping, Payload};
 
 use super::material::{MATERIAL_KEYS, Material};
-use crate::config::{ConfigError, ConfigPlace, Rule, Table, Value};
+use crate::config::{ConfigError, ConfigPlace, Table, Value};
 use crate::units::Dimension;
 
 /// Largest `count` of a span.
@@ -70,11 +70,9 @@ impl BeamSpec {
 }
 
 pub(super) fn beam(table: &Table<'_>) -> Result<BeamSpec, ConfigError> {
-    let own = ["hub_radius", "spans", "payload", "damping"];
-    table.only(&[&MATERIAL_KEYS[..], &own].concat())?;
+    table.only(&format!("{MATERIAL_KEYS} hub_radius spans payload damping"))?;
     let common = Material::read(table)?;
-    let hub_radius_m = table.get("hub_radius").map(|v| v.not_negative(Dimension::LENGTH));
-    let hub_radius_m = hub_radius_m.transpose()?.unwrap_or(0.0);
+    let hub_radius_m = table.not_negative("hub_radius", Dimension::LENGTH)?.unwrap_or(0.0);
     let value = table.need("spans")?;
     let items =
         value.list("a list of spans, as in [{ length = \"7 in\", mass = \"0.121 lb\" }]")?;
@@ -84,22 +82,23 @@ pub(super) fn beam(table: &Table<'_>) -> Result<BeamSpec, ConfigError> {
     let read: Vec<Entry<'_>> =
         items.iter().map(|v| Entry::read(v, table, &common)).collect::<Result<_, _>>()?;
     if let Some(early) = read[..read.len() - 1].iter().find_map(|e| e.table.get("inertia")) {
-        return Err(ConfigError::LastOnly { place: early.place() });
+        let problem = " is allowed only in the last entry";
+        return Err(early.error(problem, "move it to the last entry, or remove it"));
     }
     let inertia = read[read.len() - 1].table.get("inertia");
-    let payload = table.get("payload").map(|v| v.table()).transpose()?;
+    let payload = table.optional("payload", Value::table)?;
     if let Some(both) = payload.as_ref().filter(|p| inertia.is_some() && p.get("inertia").is_some())
     {
         let place = ConfigPlace { key: table.place().key, ..both.place() };
-        let (first, second) = ("payload.inertia", "spans[].inertia");
-        return Err(ConfigError::Clash { place, first, second });
+        let clash = table.clash("payload.inertia", "spans[].inertia");
+        return Err(ConfigError { place, ..clash });
     }
     Ok(BeamSpec {
         spans: spans(&value, &read, hub_radius_m)?,
         hub_radius_m,
         tip_inertia_kg_m2: inertia.map(|v| v.not_negative(Dimension::INERTIA)).transpose()?,
         payload: payload.map(|p| tip(&p)).transpose()?,
-        damping: table.get("damping").map_or(Ok(Damping::None), |v| damping(&v.table()?))?,
+        damping: table.optional("damping", damping)?.unwrap_or(Damping::None),
     })
 }
 
@@ -120,17 +119,15 @@ impl<'a> Entry<'a> {
         common: &Material<'a>,
     ) -> Result<Self, ConfigError> {
         let table = value.table()?;
-        table.only(
-            &[&["length", "mass", "count", "damping", "inertia"], &MATERIAL_KEYS[..]].concat(),
-        )?;
+        table.only(&format!("length mass count damping inertia {MATERIAL_KEYS}"))?;
         let material = Material::read(&table)?.or(common);
-        let count = table.get("count").map(|v| v.whole(1, MOST_REPEATED)).transpose()?;
+        let count = table.optional("count", |v| v.whole(1, MOST_REPEATED))?;
         Ok(Self {
             count: count.and_then(|c| usize::try_from(c).ok()).unwrap_or(1),
             length_m: table.need("length")?.positive(Dimension::LENGTH)?,
             flexural_rigidity_n_m2: material.rigidity(beam)?,
             mass_per_length_kg_per_m: material.mass_per_length()?,
-            damping: table.get("damping").map(|v| PointDamping::read(&v)).transpose()?,
+            damping: table.optional("damping", PointDamping::read)?,
             table,
         })
     }
@@ -154,13 +151,16 @@ fn spans(
     let heavy = entries.iter().find(|e| e.mass_per_length_kg_per_m.is_some());
     let massless = entries.iter().find(|e| e.mass_per_length_kg_per_m.is_none());
     if let (Some(heavy), Some(massless)) = (heavy, massless) {
-        let (place, other) = (massless.table.place(), heavy.table.place().key);
-        return Err(ConfigError::NoMassAlong { place, other });
+        let other = heavy.table.place().key;
+        return Err(massless.table.error(
+            format!(" has no mass along its length, but `{other}` has"),
+            "give all spans a mass along their length (`mass_per_length`, or `density` with \
+             `section`), or none of them",
+        ));
     }
     let total: usize = entries.iter().map(|e| e.count).sum();
     if total > MOST_SPANS {
-        let (place, most) = (list.place(), MOST_SPANS);
-        return Err(ConfigError::TooMany { place, found: total, most });
+        return Err(list.too_many(total, MOST_SPANS));
     }
     let mut spans = Vec::with_capacity(total);
     // L_i, the distance of mass i from the axis [m].
@@ -195,7 +195,7 @@ impl PointDamping {
         let (index, size) =
             value.quantity_of(&[Dimension::VISCOUS_LINEAR, Dimension::FORCE_PER_RATE])?;
         if size < 0.0 {
-            return Err(value.range(Rule::NotNegative));
+            return Err(value.range("zero or greater"));
         }
         Ok(if index == 0 { Self::PerVelocity(size) } else { Self::PerRate(size) })
     }
@@ -211,21 +211,18 @@ impl PointDamping {
 
 /// The table `payload`.
 fn tip(table: &Table<'_>) -> Result<Payload, ConfigError> {
-    table.only(&["mass", "inertia", "offset"])?;
+    table.only("mass inertia offset")?;
     payload(table)
 }
 
 /// Reads the keys of a payload.
 pub(super) fn payload(table: &Table<'_>) -> Result<Payload, ConfigError> {
-    let not_negative =
-        |key, dimension| table.get(key).map(|v| v.not_negative(dimension)).transpose();
-    let mass = not_negative("mass", Dimension::MASS)?;
-    let inertia = not_negative("inertia", Dimension::INERTIA)?;
+    let mass = table.not_negative("mass", Dimension::MASS)?;
+    let inertia = table.not_negative("inertia", Dimension::INERTIA)?;
     if mass.is_none() && inertia.is_none() {
-        let keys = vec!["mass", "inertia"];
-        return Err(ConfigError::NoneOf { place: table.place(), keys });
+        return Err(table.none_of(&["mass", "inertia"]));
     }
-    let offset = table.get("offset").map(|v| v.quantity(Dimension::LENGTH)).transpose()?;
+    let offset = table.any("offset", Dimension::LENGTH)?;
     Ok(Payload {
         mass_kg: mass.unwrap_or(0.0),
         inertia_kg_m2: inertia.unwrap_or(0.0),
@@ -234,29 +231,28 @@ pub(super) fn payload(table: &Table<'_>) -> Result<Payload, ConfigError> {
 }
 
 /// The beam's table `damping`.
-fn damping(table: &Table<'_>) -> Result<Damping, ConfigError> {
+fn damping(value: &Value<'_>) -> Result<Damping, ConfigError> {
+    let table = value.table()?;
     let keys = ["mass_proportional", "stiffness_proportional", "ratio", "ratios"];
-    table.only(&keys)?;
+    table.only(&keys.join(" "))?;
     for pair in [[0, 2], [0, 3], [1, 2], [1, 3], [2, 3]] {
         table.one_of(&pair.map(|k| keys[k]))?;
     }
-    if let Some(ratio) = table.get("ratio") {
-        return Ok(Damping::Modal { ratios: vec![ratio.not_negative(Dimension::NUMBER)?] });
+    if let Some(ratio) = table.not_negative("ratio", Dimension::NUMBER)? {
+        return Ok(Damping::Modal { ratios: vec![ratio] });
     }
     if let Some(list) = table.get("ratios") {
-        let ratios = list.list(RATIOS)?;
-        if ratios.is_empty() {
-            return Err(list.kind(RATIOS));
-        }
-        let ratios = ratios.iter().map(|v| v.not_negative(Dimension::NUMBER));
-        return Ok(Damping::Modal { ratios: ratios.collect::<Result<_, _>>()? });
+        let ratios = table.items("ratios", RATIOS, |v| v.not_negative(Dimension::NUMBER))?;
+        return if ratios.is_empty() {
+            Err(list.kind(RATIOS))
+        } else {
+            Ok(Damping::Modal { ratios })
+        };
     }
-    let not_negative =
-        |key, dimension| table.get(key).map(|v| v.not_negative(dimension)).transpose();
-    let mass = not_negative(keys[0], Dimension::RATE)?;
-    let stiffness = not_negative(keys[1], Dimension::TIME)?;
+    let mass = table.not_negative(keys[0], Dimension::RATE)?;
+    let stiffness = table.not_negative(keys[1], Dimension::TIME)?;
     if mass.is_none() && stiffness.is_none() {
-        return Err(ConfigError::NoneOf { place: table.place(), keys: keys.to_vec() });
+        return Err(table.none_of(&keys));
     }
     Ok(Damping::Proportional {
         mass_per_s: mass.unwrap_or(0.0),

@@ -22,13 +22,13 @@ impl LoadSpec {
 }
 
 pub(super) fn load(table: &Table<'_>) -> Result<LoadSpec, ConfigError> {
-    table.only(&["gravity_torque", "phase"])?;
+    table.only("gravity_torque phase")?;
     keys(table)
 }
 
 /// The keys of a load.
 pub(super) fn keys(table: &Table<'_>) -> Result<LoadSpec, ConfigError> {
-    let phase = table.get("phase").map(|v| v.quantity(Dimension::NUMBER)).transpose()?;
+    let phase = table.any("phase", Dimension::NUMBER)?;
     Ok(LoadSpec {
         gravity_torque_nm: table.need("gravity_torque")?.positive(Dimension::TORQUE)?,
         phase_rad: phase.unwrap_or(0.0),

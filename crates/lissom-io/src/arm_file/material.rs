@@ -6,8 +6,8 @@ use crate::config::{ConfigError, Table, Value};
 use crate::units::Dimension;
 
 /// Keys of the material, of a beam and of each span.
-pub(super) const MATERIAL_KEYS: [&str; 5] =
-    ["flexural_rigidity", "young_modulus", "section", "density", "mass_per_length"];
+pub(super) const MATERIAL_KEYS: &str =
+    "flexural_rigidity young_modulus section density mass_per_length";
 
 /// Stiffness and mass along the beam, as given in one table.
 #[derive(Debug, Clone, Default)]
@@ -43,16 +43,15 @@ impl<'a> Material<'a> {
         for other in ["young_modulus", "section"] {
             table.one_of(&["flexural_rigidity", other])?;
         }
-        let positive = |key, dimension| table.get(key).map(|v| v.positive(dimension)).transpose();
         let mass = match table.one_of(&["density", "mass_per_length"])? {
             None => None,
             Some((0, value)) => Some(Mass::Density(value.positive(Dimension::DENSITY)?, value)),
             Some((_, value)) => Some(Mass::PerLength(value.positive(Dimension::LINEAR_DENSITY)?)),
         };
         Ok(Self {
-            rigidity: positive("flexural_rigidity", Dimension::FLEXURAL_RIGIDITY)?,
-            modulus: positive("young_modulus", Dimension::PRESSURE)?,
-            section: table.get("section").map(|v| section(&v)).transpose()?,
+            rigidity: table.positive("flexural_rigidity", Dimension::FLEXURAL_RIGIDITY)?,
+            modulus: table.positive("young_modulus", Dimension::PRESSURE)?,
+            section: table.optional("section", section)?,
             mass,
         })
     }
@@ -78,16 +77,9 @@ impl<'a> Material<'a> {
         match (self.rigidity, self.modulus, self.section) {
             (Some(rigidity), ..) => Ok(rigidity),
             (None, Some(modulus), Some(section)) => Ok(modulus * section.moment),
-            (None, Some(_), None) => {
-                Err(ConfigError::MissingKey { place: beam.place(), key: "section" })
-            }
-            (None, None, Some(_)) => {
-                Err(ConfigError::MissingKey { place: beam.place(), key: "young_modulus" })
-            }
-            (None, None, None) => Err(ConfigError::NoneOf {
-                place: beam.place(),
-                keys: vec!["flexural_rigidity", "young_modulus"],
-            }),
+            (None, Some(_), None) => Err(beam.lacks("section")),
+            (None, None, Some(_)) => Err(beam.lacks("young_modulus")),
+            (None, None, None) => Err(beam.none_of(&["flexural_rigidity", "young_modulus"])),
         }
     }
 
@@ -98,7 +90,11 @@ impl<'a> Material<'a> {
             Some(Mass::PerLength(mass)) => Ok(Some(*mass)),
             Some(Mass::Density(density, value)) => match self.section {
                 Some(section) => Ok(Some(density * section.area)),
-                None => Err(ConfigError::Needs { place: value.place(), key: "section" }),
+                None => Err(value.error(
+                    " needs `section`",
+                    "give `section` and `young_modulus`, from which the area follows, or write \
+                     `mass_per_length` instead of `density`",
+                )),
             },
         }
     }
@@ -107,12 +103,9 @@ impl<'a> Material<'a> {
 /// Reads a section: A = πd²/4 and I = πd⁴/64 if it is round, A = wt and I = wt³/12 of a rectangle bent across t.
 fn section(value: &Value<'_>) -> Result<Section, ConfigError> {
     let table = value.table()?;
-    table.only(&["round", "rectangle"])?;
+    table.only("round rectangle")?;
     match table.one_of(&["round", "rectangle"])? {
-        None => {
-            let keys = vec!["round", "rectangle"];
-            Err(ConfigError::NoneOf { place: table.place(), keys })
-        }
+        None => Err(table.none_of(&["round", "rectangle"])),
         Some((0, diameter)) => {
             let d = diameter.positive(Dimension::LENGTH)?;
             Ok(Section { area: PI * d.powi(2) / 4.0, moment: PI * d.powi(4) / 64.0 })

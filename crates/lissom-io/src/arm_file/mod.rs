@@ -75,12 +75,11 @@ mod rig_spec;
 mod tests;
 mod tip_spec;
 
-pub use arm_error::ArmError;
 pub use arm_spec::ArmFile;
 pub use beam_spec::{BeamKind, BeamSpec, SpanSpec};
 pub use drive_spec::DriveSpec;
-pub use friction_spec::{BristlesSpec, FrictionSpec, RestSpec, RippleSpec};
+pub use friction_spec::FrictionSpec;
 pub use load_spec::LoadSpec;
-pub use rig_spec::{ControllerSpec, ConverterSpec, IntegerSpec, RigSpec, SensorSpec, SensorSteps};
+pub use rig_spec::RigSpec;
+pub use tip_spec::TipSpec;
 pub(crate) use tip_spec::omega;
-pub use tip_spec::{SignalSpec, TipSpec};

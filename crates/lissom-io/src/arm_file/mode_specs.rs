@@ -11,23 +11,19 @@ const MODES: &str =
 const GAINS: &str = "a list of numbers, one for each point";
 
 pub(super) fn modes(table: &Table<'_>) -> Result<Vec<KnownMode>, ConfigError> {
-    table.only(&["modes"])?;
-    let list = table.need("modes")?;
-    let items = list.list(MODES)?;
-    if items.is_empty() {
-        return Err(list.kind(MODES));
-    }
-    items.iter().map(mode).collect()
+    table.only("modes")?;
+    let modes = table.items("modes", MODES, mode)?;
+    if modes.is_empty() { Err(table.need("modes")?.kind(MODES)) } else { Ok(modes) }
 }
 
 fn mode(value: &Value<'_>) -> Result<KnownMode, ConfigError> {
     let table = value.table()?;
-    table.only(&["frequency", "omega_rad_s", "damping_ratio", "coupling", "gains"])?;
-    let ratio = table.get("damping_ratio").map(|v| v.not_negative(Dimension::NUMBER));
+    table.only("frequency omega_rad_s damping_ratio coupling gains")?;
+    let ratio = table.not_negative("damping_ratio", Dimension::NUMBER)?;
     let gains = table.need("gains")?.list(GAINS)?;
     Ok(KnownMode {
         omega_rad_s: omega(&table)?,
-        damping_ratio: ratio.transpose()?.unwrap_or(0.0),
+        damping_ratio: ratio.unwrap_or(0.0),
         coupling_nm_per_rad: table.need("coupling")?.positive(Dimension::TORQUE)?,
         gains: gains.iter().map(Value::number).collect::<Result<_, _>>()?,
     })

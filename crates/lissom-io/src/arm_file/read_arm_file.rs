@@ -4,7 +4,7 @@ use std::path::Path;
 
 use super::arm_spec::ArmFile;
 use super::{beam_spec, drive_spec, load_spec, mode_specs, rig_spec, tip_spec};
-use crate::config::{ConfigError, Source, Table};
+use crate::config::{ConfigError, Source, Table, Value};
 use crate::io_error::Error;
 
 impl ArmFile {
@@ -21,7 +21,7 @@ impl ArmFile {
     /// ```
     /// let text = "[rig]\nsample_time = \"3 ms\"";
     /// let arm = lissom_io::ArmFile::from_text("arm.toml".as_ref(), text)?;
-    /// assert_eq!(arm.rig.map(|rig| rig.sample_time_s), Some(0.003));
+    /// assert_eq!(arm.rig.map(|rig| rig.instruments.sample_time_s), Some(0.003));
     /// # Ok::<(), lissom_io::Error>(())
     /// ```
     ///
@@ -34,25 +34,24 @@ impl ArmFile {
     fn from_source(source: &Source) -> Result<Self, ConfigError> {
         let document = source.parse()?;
         let root = source.root(&document);
-        root.only(&["beam", "drive", "load", "tip", "rig"])?;
-        let table = root.get("beam").map(|v| v.table()).transpose()?;
+        root.only("beam drive load tip rig")?;
+        let table = root.optional("beam", Value::table)?;
         let rigid = table.as_ref().map_or(Ok(false), rigid)?;
         let (by_modes, by_spans) = match table {
             _ if rigid => (None, None),
             Some(table) if table.get("modes").is_some() => (Some(table), None),
             other => (None, other),
         };
-        let load = root.get("load").map(|v| load_spec::load(&v.table()?)).transpose()?;
+        let load = root.optional("load", |v| load_spec::load(&v.table()?))?;
         let gravity = load.map(|load| load.gravity());
-        let drive = root.get("drive").map(|v| drive_spec::drive(&v.table()?, gravity));
         Ok(Self {
             beam: by_spans.map(|t| beam_spec::beam(&t)).transpose()?,
             modes: by_modes.map(|t| mode_specs::modes(&t)).transpose()?,
             rigid,
-            drive: drive.transpose()?,
+            drive: root.optional("drive", |v| drive_spec::drive(&v.table()?, gravity))?,
             load,
-            tip: root.get("tip").map(|v| tip_spec::tip(&v.table()?)).transpose()?,
-            rig: root.get("rig").map(|v| rig_spec::rig(&v.table()?)).transpose()?,
+            tip: root.optional("tip", |v| tip_spec::tip(&v.table()?))?,
+            rig: root.optional("rig", |v| rig_spec::rig(&v.table()?))?,
         })
     }
 }
@@ -63,6 +62,6 @@ fn rigid(table: &Table<'_>) -> Result<bool, ConfigError> {
     if !value.truth()? {
         return Err(value.kind("true (or `spans` or `modes` instead)"));
     }
-    table.only(&["rigid"])?;
+    table.only("rigid")?;
     Ok(true)
 }

@@ -1,91 +1,22 @@
 //! The table `[rig]`: sampling, sensors, amplifier, controller.
 
-use lissom_core::rig::Word;
+use lissom_core::rig::{
+    ControlLaw, Delay, Instruments, IntegerPd, Noise, Pd, Pid, Quantiser, RigError, Sensor, Word,
+};
 
-use crate::config::{ConfigError, Rule, Table, Value};
+use super::arm_error::unusable;
+use crate::config::{ConfigError, Table, Value};
 use crate::units::Dimension;
 
 /// A test rig with a sampled controller.
 #[derive(Debug, Clone, PartialEq)]
 pub struct RigSpec {
-    /// Sample time \[s\].
-    pub sample_time_s: f64,
-    /// The controller acts at every n-th sample.
-    pub control_every: usize,
-    /// Every n-th sample is logged.
-    pub log_every: usize,
-    /// Magnitude at which the current saturates \[A\].
-    pub current_limit_a: Option<f64>,
-    /// Dead band: demands up to this magnitude give no current \[A\].
-    pub dead_band_a: Option<f64>,
-    /// The D/A converter of the current.
-    pub current_converter: Option<ConverterSpec>,
-    /// Time from the reading of the sensors to the change of the current \[s\].
-    pub delay_s: Option<f64>,
-    /// The motor's angle sensor.
-    pub motor_sensor: Option<SensorSpec>,
-    /// The sensors of the angles of the masses; `None`: the same as the motor's.
-    pub tip_sensors: Option<Vec<SensorSpec>>,
+    /// Sampling, sensors and amplifier. Without sensors of the tips, these are as the motor's.
+    pub instruments: Instruments,
     /// The motor's position controller.
-    pub controller: Option<ControllerSpec>,
+    pub controller: Option<ControlLaw>,
     /// Number of point masses for a beam with mass along it.
     pub masses: Option<usize>,
-}
-
-/// A D/A converter with equal steps.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct ConverterSpec {
-    /// Number of bits.
-    pub bits: u32,
-    /// From the lowest to the highest value \[A\].
-    pub range_a: f64,
-}
-
-/// A sensor of an angle.
-#[derive(Debug, Clone, Copy, PartialEq, Default)]
-pub struct SensorSpec {
-    /// Its resolution; `None` without steps.
-    pub steps: Option<SensorSteps>,
-    /// Standard deviation of its noise \[rad\]; `None` without noise.
-    pub noise_rad: Option<f64>,
-}
-
-/// Resolution of a sensor.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub enum SensorSteps {
-    /// An A/D converter.
-    Bits {
-        /// Bits of a reading.
-        bits: u32,
-        /// Range of angle over which each reading occurs once \[rad\].
-        range_rad: f64,
-    },
-    /// Counts of an encoder per turn.
-    CountsPerTurn(u32),
-}
-
-/// A position controller, from angle to current.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct ControllerSpec {
-    /// Proportional gain \[A/rad\].
-    pub proportional_a_per_rad: f64,
-    /// Derivative gain \[A·s/rad\].
-    pub derivative_a_s_per_rad: f64,
-    /// Integral gain \[A/(rad·s)\].
-    pub integral_a_per_rad_s: Option<f64>,
-    /// Time constant of the filter of the derivative \[s\].
-    pub filter_s: Option<f64>,
-    /// Integer arithmetic of the control computer, if it has any.
-    pub integers: Option<IntegerSpec>,
-}
-
-/// Integer arithmetic of a control computer.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub struct IntegerSpec {
-    /// Length of the integers.
-    pub word: Word,
-    /// Bits of the gains after the binary point.
-    pub binary_point: u32,
 }
 
 /// Largest number of samples between two actions or rows.
@@ -94,113 +25,108 @@ const EVERY_MOST: i64 = 1_000_000;
 const MASSES_MOST: i64 = 150;
 
 pub(super) fn rig(table: &Table<'_>) -> Result<RigSpec, ConfigError> {
-    table.only(&[
-        "sample_time",
-        "control_every",
-        "log_every",
-        "current_limit",
-        "dead_band",
-        "current_converter",
-        "delay",
-        "motor_sensor",
-        "tip_sensors",
-        "controller",
-        "masses",
-    ])?;
+    table.only(
+        "sample_time control_every log_every current_limit dead_band current_converter delay \
+         motor_sensor tip_sensors controller masses",
+    )?;
+    let failed = |source: RigError| unusable(table.place(), source);
     let count = |key, most| -> Result<Option<usize>, ConfigError> {
-        let count = table.get(key).map(|v| v.whole(1, most)).transpose()?;
+        let count = table.optional(key, |v| v.whole(1, most))?;
         Ok(count.and_then(|c| usize::try_from(c).ok()))
     };
-    let limit = table.get("current_limit").map(|v| v.positive(Dimension::CURRENT));
-    let dead_band = table.get("dead_band").map(|v| v.not_negative(Dimension::CURRENT));
-    let delay = table.get("delay").map(|v| v.not_negative(Dimension::TIME));
-    let tips = table.get("tip_sensors").map(|v| v.one_or_list().iter().map(sensor).collect());
-    Ok(RigSpec {
-        sample_time_s: table.need("sample_time")?.positive(Dimension::TIME)?,
-        control_every: count("control_every", EVERY_MOST)?.unwrap_or(1),
-        log_every: count("log_every", EVERY_MOST)?.unwrap_or(1),
-        current_limit_a: limit.transpose()?,
-        dead_band_a: dead_band.transpose()?,
-        current_converter: table
-            .get("current_converter")
-            .map(|v| converter(&v.table()?))
-            .transpose()?,
-        delay_s: delay.transpose()?,
-        motor_sensor: table.get("motor_sensor").map(|v| sensor(&v)).transpose()?,
-        tip_sensors: tips.transpose()?,
-        controller: table.get("controller").map(|v| controller(&v.table()?)).transpose()?,
-        masses: count("masses", MASSES_MOST)?,
-    })
+    let sample_time_s = table.need("sample_time")?.positive(Dimension::TIME)?;
+    let mut made = Instruments::ideal(sample_time_s).map_err(failed)?;
+    made.control_every = count("control_every", EVERY_MOST)?.unwrap_or(1);
+    made.log_every = count("log_every", EVERY_MOST)?.unwrap_or(1);
+    if let Some(limit_a) = table.positive("current_limit", Dimension::CURRENT)? {
+        made.amplifier = made.amplifier.with_limit(limit_a).map_err(failed)?;
+    }
+    if let Some(dead_band_a) = table.not_negative("dead_band", Dimension::CURRENT)? {
+        made.amplifier = made.amplifier.with_dead_band(dead_band_a).map_err(failed)?;
+    }
+    if let Some(converter) = table.optional("current_converter", Value::table)? {
+        converter.only("bits range")?;
+        made.amplifier = made.amplifier.with_converter(quantiser(&converter, Dimension::CURRENT)?);
+    }
+    if let Some(delay_s) = table.not_negative("delay", Dimension::TIME)? {
+        made.delay = Some(Delay::new(delay_s).map_err(failed)?);
+    }
+    made.motor = table.optional("motor_sensor", sensor)?.unwrap_or(Sensor::IDEAL);
+    let tips = table.optional("tip_sensors", |v| v.one_or_list().iter().map(sensor).collect())?;
+    made.tips = tips.unwrap_or_else(|| vec![made.motor]);
+    let controller = table.optional("controller", |v| controller(&v.table()?, &made))?;
+    Ok(RigSpec { instruments: made, controller, masses: count("masses", MASSES_MOST)? })
 }
 
-fn bits(table: &Table<'_>) -> Result<u32, ConfigError> {
-    Ok(u32::try_from(table.need("bits")?.whole(1, 32)?).unwrap_or(32))
+/// Reads the equal steps of a converter.
+fn quantiser(table: &Table<'_>, expected: Dimension) -> Result<Quantiser, ConfigError> {
+    let bits = u32::try_from(table.need("bits")?.whole(1, 32)?).unwrap_or(32);
+    let range = table.need("range")?.positive(expected)?;
+    Quantiser::new(bits, range).map_err(|source| unusable(table.place(), source))
 }
 
-fn converter(table: &Table<'_>) -> Result<ConverterSpec, ConfigError> {
-    table.only(&["bits", "range"])?;
-    let range_a = table.need("range")?.positive(Dimension::CURRENT)?;
-    Ok(ConverterSpec { bits: bits(table)?, range_a })
-}
-
-fn sensor(value: &Value<'_>) -> Result<SensorSpec, ConfigError> {
+fn sensor(value: &Value<'_>) -> Result<Sensor, ConfigError> {
     let table = value.table()?;
-    table.only(&["bits", "range", "counts_per_turn", "noise"])?;
-    let steps = match table.one_of(&["bits", "counts_per_turn"])? {
-        Some((0, _)) => Some(SensorSteps::Bits {
-            bits: bits(&table)?,
-            range_rad: table.need("range")?.positive(Dimension::NUMBER)?,
-        }),
+    table.only("bits range counts_per_turn noise")?;
+    let failed = |source: RigError| unusable(table.place(), source);
+    let steps = table.one_of(&["bits", "counts_per_turn"])?;
+    let quantiser = match steps {
+        Some((0, _)) => Some(quantiser(&table, Dimension::NUMBER)?),
         Some((_, counts)) => {
             let counts = counts.whole(1, i64::from(u32::MAX))?;
-            Some(SensorSteps::CountsPerTurn(u32::try_from(counts).unwrap_or(u32::MAX)))
+            let counts = u32::try_from(counts).unwrap_or(u32::MAX);
+            Some(Quantiser::encoder(counts).map_err(failed)?)
         }
         None => None,
     };
-    if let Some(range) =
-        table.get("range").filter(|_| !matches!(steps, Some(SensorSteps::Bits { .. })))
-    {
-        return Err(ConfigError::Needs { place: range.place(), key: "bits" });
+    if let Some(range) = table.get("range").filter(|_| table.get("bits").is_none()) {
+        return Err(range.needs("bits"));
     }
-    let noise = table.get("noise").map(|v| v.positive(Dimension::NUMBER));
-    Ok(SensorSpec { steps, noise_rad: noise.transpose()? })
+    let noise = table.positive("noise", Dimension::NUMBER)?;
+    Ok(Sensor { noise: noise.map(Noise::new).transpose().map_err(failed)?, quantiser })
 }
 
-fn controller(table: &Table<'_>) -> Result<ControllerSpec, ConfigError> {
-    table.only(&["proportional", "derivative", "integral", "filter", "integers"])?;
-    let gain = |key, dimension| table.get(key).map(|v| v.not_negative(dimension)).transpose();
-    let derivative = gain("derivative", Dimension::TORQUE_PER_VOLTAGE)?;
-    let integral = gain("integral", Dimension::CURRENT_RATE)?;
-    let filter = gain("filter", Dimension::TIME)?;
-    let integers = match table.get("integers") {
-        None => None,
-        Some(value) => {
-            if let Some(other) = ["integral", "filter"].into_iter().find(|k| table.get(k).is_some())
-            {
-                let place = table.place();
-                return Err(ConfigError::Clash { place, first: "integers", second: other });
-            }
-            Some(integer(&value.table()?)?)
-        }
-    };
-    Ok(ControllerSpec {
-        proportional_a_per_rad: table.need("proportional")?.not_negative(Dimension::CURRENT)?,
-        derivative_a_s_per_rad: derivative.unwrap_or(0.0),
-        integral_a_per_rad_s: integral,
-        filter_s: filter,
-        integers,
+fn controller(table: &Table<'_>, instruments: &Instruments) -> Result<ControlLaw, ConfigError> {
+    table.only("proportional derivative integral filter integers")?;
+    let failed = |source: RigError| unusable(table.place(), source);
+    for other in ["integral", "filter"] {
+        table.one_of(&["integers", other])?;
+    }
+    let proportional = table.need("proportional")?.not_negative(Dimension::CURRENT)?;
+    let derivative = table.not_negative("derivative", Dimension::TORQUE_PER_VOLTAGE)?;
+    let mut pd = Pd::new(proportional, derivative.unwrap_or(0.0)).map_err(failed)?;
+    if let Some(filter_s) = table.not_negative("filter", Dimension::TIME)? {
+        pd = pd.with_filter(filter_s).map_err(failed)?;
+    }
+    if let Some(integers) = table.optional("integers", Value::table)? {
+        return integer(&integers, &pd, instruments);
+    }
+    Ok(match table.not_negative("integral", Dimension::CURRENT_RATE)? {
+        Some(integral) => Pid::new(pd, integral).map_err(failed)?.into(),
+        None => pd.into(),
     })
 }
 
-fn integer(table: &Table<'_>) -> Result<IntegerSpec, ConfigError> {
-    table.only(&["word", "binary_point"])?;
+/// Integer arithmetic of a control computer.
+fn integer(
+    table: &Table<'_>,
+    pd: &Pd,
+    instruments: &Instruments,
+) -> Result<ControlLaw, ConfigError> {
+    table.only("word binary_point")?;
     let value = table.need("word")?;
     let word = match value.whole(16, 32)? {
         16 => Word::Short,
         32 => Word::Long,
-        _ => return Err(value.range(Rule::OneOf(16, 32))),
+        _ => return Err(value.range("16 or 32")),
     };
-    let most = i64::from(word.bits()) - 1;
-    let point = table.need("binary_point")?.whole(0, most)?;
-    Ok(IntegerSpec { word, binary_point: u32::try_from(point).unwrap_or(0) })
+    let point = table.need("binary_point")?.whole(0, i64::from(word.bits()) - 1)?;
+    let point = u32::try_from(point).unwrap_or(0);
+    let made = || {
+        let steps = |of: Option<Quantiser>, what| of.ok_or(RigError::NeedsSteps { what });
+        let input = steps(instruments.motor.quantiser, "motor_sensor")?;
+        let output = steps(instruments.amplifier.converter(), "current_converter")?;
+        IntegerPd::new(pd, instruments.control_time_s(), input, output, word, point)
+    };
+    Ok(made().map_err(|source| unusable(table.place(), source))?.into())
 }

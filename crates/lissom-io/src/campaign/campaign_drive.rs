@@ -4,7 +4,6 @@ use std::path::Path;
 
 use lissom_core::record::{Axis, Command, CommandQuantity};
 
-use super::campaign_error::CampaignError;
 use super::campaign_file::DriveConstants;
 use super::campaign_signals::{CommandKind, CommandSource};
 use crate::arm_file::ArmFile;
@@ -33,26 +32,17 @@ pub(super) fn drive(
     let Some(table) = table else {
         return Ok((command, known, sign));
     };
-    table.only(&[
-        "torque_constant",
-        "position_gain",
-        "resistance",
-        "back_emf",
-        "limit",
-        "current_limit",
-        "voltage_limit",
-        "gear_ratio",
-        "gear_efficiency",
-        "arm",
-    ])?;
+    table.only(
+        "torque_constant position_gain resistance back_emf limit current_limit voltage_limit \
+         gear_ratio gear_efficiency arm",
+    )?;
     command.limit = limit(table, axis, source.kind)?;
-    let resistance = table.get("resistance").map(|v| v.positive(Dimension::RESISTANCE));
-    known.resistance_ohm = resistance.transpose()?;
+    known.resistance_ohm = table.positive("resistance", Dimension::RESISTANCE)?;
     let back_emf_unit = match axis {
         Axis::Rotary => Dimension::TORQUE_PER_CURRENT,
         Axis::Linear => Dimension::FORCE_PER_CURRENT,
     };
-    known.back_emf = table.get("back_emf").map(|v| v.not_negative(back_emf_unit)).transpose()?;
+    known.back_emf = table.not_negative("back_emf", back_emf_unit)?;
     if let Some(value) = table.get("position_gain") {
         if source.kind != CommandKind::Goal {
             return Err(not_for(&value, source.kind, axis).into());
@@ -74,10 +64,17 @@ pub(super) fn drive(
         known.torque_constant = Some(constant);
         let per_command = if per_ampere && quantity == CommandQuantity::Voltage {
             let Some(resistance_ohm) = known.resistance_ohm else {
-                return Err(CampaignError::NoResistance { place: value.place() }.into());
+                return Err(value.error(
+                    ": a torque constant per ampere needs `resistance` if the command is a voltage",
+                    "give `resistance` and `back_emf`, or the torque constant per volt, as in \"0.15 N*m/V\"",
+                ).into());
             };
             if known.back_emf.is_none() {
-                return Err(CampaignError::NoBackEmf { place: value.place() }.into());
+                return Err(value.error(
+                    ": a torque constant per ampere needs `back_emf` if the command is a voltage",
+                    "for a DC motor `back_emf` equals the torque constant in SI, as in \
+                     \"0.0107 V*s/rad\"; with 0 its damping is part of viscous friction",
+                ).into());
             }
             constant / resistance_ohm
         } else {
@@ -106,22 +103,23 @@ struct Gear {
     efficiency: f64,
 }
 
-fn gear(table: &Table<'_>) -> Result<Gear, Error> {
-    let given = |key: &str| {
-        let value = table.get(key)?;
+fn gear(table: &Table<'_>) -> Result<Gear, ConfigError> {
+    let given = |value: &Value<'_>| {
         if table.get("torque_constant").is_none() {
-            return Some(Err(CampaignError::GearAlone { place: value.place() }.into()));
+            return Err(value.error(
+                " has no effect without `torque_constant`",
+                "add the torque constant of the motor, or remove this key: without a constant, \
+                 estimates are per unit of command",
+            ));
         }
-        Some(value.positive(Dimension::NUMBER).map_err(Error::from))
+        value.positive(Dimension::NUMBER)
     };
-    let ratio = given("gear_ratio").transpose()?.unwrap_or(1.0);
-    let efficiency = given("gear_efficiency").transpose()?.unwrap_or(1.0);
-    if efficiency > 1.0
-        && let Some(value) = table.get("gear_efficiency")
-    {
-        return Err(value.range(crate::config::Rule::AtMost(1.0)).into());
-    }
-    Ok(Gear { ratio, efficiency })
+    let ratio = table.optional("gear_ratio", given)?.unwrap_or(1.0);
+    let efficiency = table.optional("gear_efficiency", |value| match given(value)? {
+        efficiency if efficiency > 1.0 => Err(value.range("no greater than 1")),
+        efficiency => Ok(efficiency),
+    })?;
+    Ok(Gear { ratio, efficiency: efficiency.unwrap_or(1.0) })
 }
 
 /// Reads the constant in SI, and whether it is per ampere.
@@ -129,7 +127,7 @@ fn torque_constant(
     value: &Value<'_>,
     axis: Axis,
     quantity: CommandQuantity,
-) -> Result<(f64, bool), Error> {
+) -> Result<(f64, bool), ConfigError> {
     let (per_ampere, per_volt, effort) = match axis {
         Axis::Rotary => {
             (Dimension::TORQUE_PER_CURRENT, Dimension::TORQUE_PER_VOLTAGE, Dimension::TORQUE)
@@ -142,7 +140,10 @@ fn torque_constant(
         CommandQuantity::Current => (0, value.quantity(per_ampere)?),
         CommandQuantity::Voltage if value.as_text().is_none() => {
             value.number()?;
-            return Err(CampaignError::TorqueConstantUnit { place: value.place() }.into());
+            return Err(value.error(
+                ": a torque constant without a unit could be per ampere or per volt",
+                "give it a unit: N*m/A or N*m/V, N/A or N/V",
+            ));
         }
         CommandQuantity::Voltage => value.quantity_of(&[per_ampere, per_volt])?,
         CommandQuantity::PositionError | CommandQuantity::Effort | CommandQuantity::Arbitrary => {
@@ -150,12 +151,12 @@ fn torque_constant(
         }
     };
     if constant == 0.0 || !constant.is_finite() {
-        return Err(value.range(crate::config::Rule::NotZero).into());
+        return Err(value.range("other than zero"));
     }
     Ok((constant, index == 0))
 }
 
-fn limit(table: &Table<'_>, axis: Axis, kind: CommandKind) -> Result<Option<f64>, Error> {
+fn limit(table: &Table<'_>, axis: Axis, kind: CommandKind) -> Result<Option<f64>, ConfigError> {
     let keys = ["limit", "current_limit", "voltage_limit"];
     let Some((key, value)) = table.one_of(&keys)? else {
         return Ok(None);
@@ -171,12 +172,12 @@ fn limit(table: &Table<'_>, axis: Axis, kind: CommandKind) -> Result<Option<f64>
         }
     };
     if !fits {
-        return Err(not_for(&value, kind, axis).into());
+        return Err(not_for(&value, kind, axis));
     }
-    let limit: Result<f64, ConfigError> = value.positive(dimension);
-    Ok(Some(limit?))
+    value.positive(dimension).map(Some)
 }
 
-fn not_for(value: &Value<'_>, kind: CommandKind, axis: Axis) -> CampaignError {
-    CampaignError::NotForCommand { place: value.place(), command: kind.name(axis) }
+fn not_for(value: &Value<'_>, kind: CommandKind, axis: Axis) -> ConfigError {
+    let problem = format!(" does not apply if the command is {}", kind.name(axis));
+    value.error(problem, "remove it, or describe the channel that it belongs to")
 }

@@ -6,7 +6,8 @@ use lissom_core::arm::Arm;
 use lissom_core::identify::Options;
 use lissom_core::record::Campaign;
 
-use crate::arm_file::{ArmError, ArmFile};
+use crate::arm_file::ArmFile;
+use crate::config::ConfigError;
 
 /// A campaign, with the other contents of its file.
 #[derive(Debug, Clone)]
@@ -23,8 +24,8 @@ impl CampaignFile {
     /// The whole arm that `[drive] arm` gives for comparison; `None` if it gives none, or one without a drive or beam.
     ///
     /// # Errors
-    /// [`ArmError`] if its numbers do not make an arm.
-    pub fn described_arm(&self) -> Result<Option<Arm>, ArmError> {
+    /// [`ConfigError`] if its numbers do not make an arm.
+    pub fn described_arm(&self) -> Result<Option<Arm>, ConfigError> {
         let (Some(arm), Some(path)) = (&self.known.arm, &self.known.arm_path) else {
             return Ok(None);
         };

@@ -2,10 +2,8 @@
 
 use lissom_core::record::Axis;
 
-use super::campaign_error::CampaignError;
 use super::campaign_signals::Signals;
-use crate::config::Table;
-use crate::io_error::Error;
+use crate::config::{ConfigError, Table, Value};
 use crate::units::Dimension;
 
 /// Whether gravity is to be identified, and the load's m·g·l \[N·m\] if it is known.
@@ -16,26 +14,27 @@ pub(super) struct CampaignLoad {
 }
 
 /// Reads the table.
-pub(super) fn load(table: &Table<'_>, signals: &Signals) -> Result<CampaignLoad, Error> {
-    table.only(&["gravity", "mgl"])?;
-    let mgl = table.get("mgl");
-    let Some(value) = table.get("gravity") else {
-        return match mgl {
-            Some(mgl) => Err(CampaignError::MglAlone { place: mgl.place() }.into()),
-            None => Ok(CampaignLoad::default()),
-        };
-    };
-    let wanted = value.truth()?;
-    if let Some(mgl) = mgl.as_ref().filter(|_| !wanted) {
-        return Err(CampaignError::MglAlone { place: mgl.place() }.into());
+pub(super) fn load(table: &Table<'_>, signals: &Signals) -> Result<CampaignLoad, ConfigError> {
+    table.only("gravity mgl")?;
+    let value = table.get("gravity");
+    let gravity = value.as_ref().map_or(Ok(false), Value::truth)?;
+    if let Some(mgl) = table.get("mgl").filter(|_| !gravity) {
+        let hint = "add gravity = true, or remove `mgl`";
+        return Err(mgl.error(" has no effect without `gravity = true`", hint));
     }
-    let place = value.place();
-    if wanted && signals.axis == Axis::Linear {
-        return Err(CampaignError::GravityOnLinearAxis { place }.into());
+    if let Some(value) = value.filter(|_| gravity) {
+        if signals.axis == Axis::Linear {
+            return Err(value.error(
+                ": gravity on a linear axis is a constant force",
+                "remove it: every result has this force as the offset of friction",
+            ));
+        }
+        if !signals.tips.is_empty() {
+            return Err(value.error(
+                ": gravity is identified only for a rigid joint, but this campaign has tips",
+                "remove `gravity`, or the tips",
+            ));
+        }
     }
-    if wanted && !signals.tips.is_empty() {
-        return Err(CampaignError::GravityWithTips { place }.into());
-    }
-    let mgl_nm = mgl.map(|mgl| mgl.positive(Dimension::TORQUE)).transpose()?;
-    Ok(CampaignLoad { gravity: wanted, mgl_nm })
+    Ok(CampaignLoad { gravity, mgl_nm: table.positive("mgl", Dimension::TORQUE)? })
 }

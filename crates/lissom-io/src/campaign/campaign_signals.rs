@@ -2,10 +2,8 @@
 
 use lissom_core::record::{Axis, CommandQuantity, Hold, Tip, TipQuantity};
 
-use super::campaign_error::CampaignError;
 use super::campaign_file::ReadOptions;
-use crate::config::{ConfigError, Rule, Table, Value};
-use crate::io_error::Error;
+use crate::config::{ConfigError, Table, Value};
 use crate::log::{ColumnRef, LogOptions};
 use crate::units::{Dimension, UnitError};
 
@@ -130,73 +128,52 @@ pub(super) enum TipSource {
     Camera { x: ColumnRef, y: ColumnRef, origin: [f64; 2], scale: f64 },
 }
 
-pub(super) fn signals(table: &Table<'_>) -> Result<Signals, Error> {
-    table.only(&[
-        "time",
-        "sample_time",
-        "run",
-        "current",
-        "voltage",
-        "command",
-        "motor",
-        "speed",
-        "tips",
-        "decimal",
-        "header_row",
-        "skip_rows",
-    ])?;
-    let time = match table.one_of(&["time", "sample_time"])? {
-        None => return Err(none_of(table, &["time", "sample_time"]).into()),
-        Some((0, value)) => stamps(&value.table()?)?,
-        Some((_, value)) => TimeSource::Steps(value.positive(Dimension::TIME)?),
-    };
-    let decimal = table.get("decimal").map(|v| v.choice(&[".", ","])).transpose()?;
+pub(super) fn signals(table: &Table<'_>) -> Result<Signals, ConfigError> {
+    table.only(
+        "time sample_time run current voltage command motor speed tips decimal header_row skip_rows",
+    )?;
+    let time = time(table)?.ok_or_else(|| table.none_of(&["time", "sample_time"]))?;
+    let decimal = table.optional("decimal", |v| v.choice(&[".", ","]))?;
     let kinds = ["current", "voltage", "command"];
     let Some((kind, value)) = table.one_of(&kinds)? else {
-        return Err(none_of(table, &kinds).into());
+        return Err(table.none_of(&kinds));
     };
     let command_table = value.table()?;
     let motor_table = table.need("motor")?.table()?;
     let motor_log = own_log(&motor_table)?;
     let (axis, motor, motor_speed) = motor(&motor_table)?;
     if motor_speed && motor_log.is_some() {
-        return Err(CampaignError::OwnLogOfSpeed { place: motor_table.place() }.into());
+        return Err(motor_table.error(
+            ": a motor's speed must be in the log of the run; its angle may have a log of its own",
+            "give the log with the motor's speed as the `file` of the run",
+        ));
     }
-    let speed = table.get("speed").map(|v| speed(&v, axis, motor_speed)).transpose()?;
+    let speed = table.optional("speed", |v| speed(v, axis, motor_speed))?;
     let command = command(&command_table, kind, axis)?;
     if motor_speed && command.kind == CommandKind::Goal {
-        return Err(CampaignError::GoalWithSpeed { place: command_table.place() }.into());
+        return Err(command_table.error(
+            ": a position goal needs the motor's position, but the log has its speed",
+            "give the column of the motor's angle, or the motor current instead of the goal",
+        ));
     }
-    let mut tip_logs = Vec::new();
-    let tips = match table.get("tips") {
-        None => Vec::new(),
-        Some(value) => {
-            let items =
-                value.list("a list of tips, as in [{ column = \"theta_t\", unit = \"rad\" }]")?;
-            for item in &items {
-                tip_logs.push(own_log(&item.table()?)?);
-            }
-            let several = items.len() > 1;
-            let tip = |(index, item): (usize, &Value<'_>)| {
-                let name = if several { format!("tip {}", index + 1) } else { "tip".to_owned() };
-                tip(&item.table()?, axis, name)
-            };
-            items.iter().enumerate().map(tip).collect::<Result<Vec<_>, _>>()?
-        }
+    let tip_tables = table.items("tips", TIPS, Value::table)?;
+    let tip_logs = tip_tables.iter().map(own_log).collect::<Result<_, _>>()?;
+    let several = tip_tables.len() > 1;
+    let tip = |(index, table): (usize, &Table<'_>)| {
+        let name = if several { format!("tip {}", index + 1) } else { "tip".to_owned() };
+        tip(table, axis, name)
     };
-    let decimal_comma = decimal == Some(1);
+    let tips = tip_tables.iter().enumerate().map(tip).collect::<Result<Vec<_>, _>>()?;
     let row = |key: &str, least| {
-        let value = table.get(key).map(|v| v.whole(least, 1_000_000)).transpose();
+        let value = table.optional(key, |v| v.whole(least, 1_000_000));
         value.map(|v| v.and_then(|v| usize::try_from(v).ok()))
     };
-    let (header_row, skip_rows) = (row("header_row", 1)?, row("skip_rows", 0)?);
-    let run = table.get("run").map(|value| column(&value)).transpose()?;
     Ok(Signals {
         time,
-        decimal_comma,
-        header_row,
-        skip_rows: skip_rows.unwrap_or(0),
-        run,
+        decimal_comma: decimal == Some(1),
+        header_row: row("header_row", 1)?,
+        skip_rows: row("skip_rows", 0)?.unwrap_or(0),
+        run: table.optional("run", column)?,
         axis,
         command,
         motor,
@@ -209,38 +186,40 @@ pub(super) fn signals(table: &Table<'_>) -> Result<Signals, Error> {
     })
 }
 
+const TIPS: &str = "a list of tips, as in [{ column = \"theta_t\", unit = \"rad\" }]";
+
 /// Keys of a signal in a log of its own.
-const OWN_LOG: [&str; 4] = ["file", "time", "sample_time", "clock"];
+const OWN_LOG: &str = "file time sample_time clock";
 
 /// The log of a signal, if it has one of its own.
-fn own_log(table: &Table<'_>) -> Result<Option<OwnLog>, Error> {
+fn own_log(table: &Table<'_>) -> Result<Option<OwnLog>, ConfigError> {
     let Some(file) = table.get("file") else {
-        for key in &OWN_LOG[1..] {
-            if let Some(value) = table.get(key) {
-                return Err(CampaignError::NoOwnLog { place: value.place() }.into());
-            }
-        }
-        return Ok(None);
+        return match OWN_LOG.split(' ').find_map(|key| table.get(key)) {
+            None => Ok(None),
+            Some(value) => Err(value.error(
+                ": this belongs to a signal in a log of its own, and there is no `file`",
+                "add `file`, the log that has this signal, or remove it",
+            )),
+        };
     };
-    let time = match table.get("time") {
-        Some(_) => table.one_of(&["time", "sample_time"])?.map(|(_, v)| stamps(&v.table()?)),
-        None => {
-            table.get("sample_time").map(|v| v.positive(Dimension::TIME).map(TimeSource::Steps))
-        }
-    };
-    let clock = table.get("clock").map(|v| v.choice(&["own", "shared"])).transpose()?;
-    let file = file.text()?.to_owned();
-    Ok(Some(OwnLog { file, time: time.transpose()?, shared_clock: clock == Some(1) }))
+    let time = time(table)?;
+    let clock = table.optional("clock", |v| v.choice(&["own", "shared"]))?;
+    Ok(Some(OwnLog { file: file.text()?.to_owned(), time, shared_clock: clock == Some(1) }))
 }
 
-fn none_of(table: &Table<'_>, keys: &[&'static str]) -> ConfigError {
-    ConfigError::NoneOf { place: table.place(), keys: keys.to_vec() }
+/// The time stamps or the sample time of a log.
+fn time(table: &Table<'_>) -> Result<Option<TimeSource>, ConfigError> {
+    Ok(match table.one_of(&["time", "sample_time"])? {
+        None => None,
+        Some((0, value)) => Some(stamps(&value.table()?)?),
+        Some((_, value)) => Some(TimeSource::Steps(value.positive(Dimension::TIME)?)),
+    })
 }
 
 fn stamps(table: &Table<'_>) -> Result<TimeSource, ConfigError> {
-    table.only(&["column", "unit", "scale"])?;
+    table.only("column unit scale")?;
     let unit_s = table.need("unit")?.unit(Dimension::TIME)?;
-    let scale = table.get("scale").map(|v| v.positive(Dimension::NUMBER)).transpose()?;
+    let scale = table.positive("scale", Dimension::NUMBER)?;
     Ok(TimeSource::Stamps(column(&table.need("column")?)?, unit_s * scale.unwrap_or(1.0)))
 }
 
@@ -252,18 +231,16 @@ pub(crate) fn column(value: &Value<'_>) -> Result<ColumnRef, ConfigError> {
 }
 
 fn scale(table: &Table<'_>) -> Result<f64, ConfigError> {
-    let Some(value) = table.get("scale") else {
-        return Ok(1.0);
-    };
-    match value.number()? {
-        0.0 => Err(value.range(Rule::NotZero)),
+    let scale = table.optional("scale", |value| match value.number()? {
+        0.0 => Err(value.range("other than zero")),
         scale => Ok(scale),
-    }
+    })?;
+    Ok(scale.unwrap_or(1.0))
 }
 
 /// Reads a column whose unit has the size `unit_size` in SI.
 fn reading(table: &Table<'_>, unit_size: f64) -> Result<Reading, ConfigError> {
-    let offset = table.get("offset").map(|v| v.number()).transpose()?;
+    let offset = table.optional("offset", Value::number)?;
     Ok(Reading {
         column: column(&table.need("column")?)?,
         gain: scale(table)? * unit_size,
@@ -271,11 +248,10 @@ fn reading(table: &Table<'_>, unit_size: f64) -> Result<Reading, ConfigError> {
     })
 }
 
-fn command(table: &Table<'_>, key: usize, axis: Axis) -> Result<CommandSource, Error> {
-    let keys = ["column", "unit", "scale", "offset", "hold", "quantity"];
-    table.only(if key == 2 { &keys } else { &keys[..5] })?;
-    let goal =
-        key == 2 && table.get("quantity").map(|v| v.choice(&["goal"])).transpose()?.is_some();
+fn command(table: &Table<'_>, key: usize, axis: Axis) -> Result<CommandSource, ConfigError> {
+    let quantity = if key == 2 { "quantity" } else { "" };
+    table.only(&format!("column unit scale offset hold {quantity}"))?;
+    let goal = key == 2 && table.optional("quantity", |v| v.choice(&["goal"]))?.is_some();
     let unit = table.need("unit")?;
     let (size, found) = unit.any_unit()?;
     let effort = match axis {
@@ -288,10 +264,14 @@ fn command(table: &Table<'_>, key: usize, axis: Axis) -> Result<CommandSource, E
             let length = axis == Axis::Linear && found == Dimension::LENGTH;
             let angle = axis == Axis::Rotary && found == Dimension::NUMBER;
             if !(length || angle && !["1", "%"].contains(&unit_text)) {
-                let (place, unit) = (unit.place(), unit_text.to_owned());
-                return Err(
-                    CampaignError::GoalUnit { place, unit, position: position(axis) }.into()
-                );
+                let position = if axis == Axis::Rotary { "an angle" } else { "a length" };
+                return Err(unit.error(
+                    format!(
+                        ": a position goal is {position}, and \"{unit_text}\" is not a unit of {position}"
+                    ),
+                    "give \"rad\" or \"deg\" for a rotary axis, \"m\" or \"mm\" for a linear one; \
+                     counts: unit = \"rad\" with scale = rad per count",
+                ));
             }
             CommandKind::Goal
         }
@@ -301,11 +281,17 @@ fn command(table: &Table<'_>, key: usize, axis: Axis) -> Result<CommandSource, E
         found if key == 2 && found == effort => CommandKind::Effort,
         _ if key == 2 => {
             let effort = CommandKind::Effort.name(axis);
-            return Err(CampaignError::CommandUnit { place: unit.place(), found, effort }.into());
+            return Err(unit.error(
+                format!(
+                    ": the command is measured in {found}, which is neither a current, a voltage nor {effort}"
+                ),
+                "give \"A\", \"V\" or \"N*m\" (\"N\" on a linear axis), or \"1\" for a command of \
+                 unknown unit",
+            ));
         }
         _ => {
             let expected = if key == 0 { Dimension::CURRENT } else { Dimension::VOLTAGE };
-            return Err(wrong_unit(&unit, found, expected).into());
+            return Err(wrong_unit(&unit, found, expected));
         }
     };
     let choice = table.need("hold")?.choice(&["sampled", "measured", "unknown"])?;
@@ -313,18 +299,10 @@ fn command(table: &Table<'_>, key: usize, axis: Axis) -> Result<CommandSource, E
     Ok(CommandSource { reading: reading(table, size)?, kind, hold, hold_assumed: choice == 2 })
 }
 
-/// What the motor's channel measures.
-fn position(axis: Axis) -> &'static str {
-    match axis {
-        Axis::Rotary => "an angle",
-        Axis::Linear => "a length",
-    }
-}
-
 /// Reads the axis, the motor's column, and whether it is a speed.
-fn motor(table: &Table<'_>) -> Result<(Axis, Reading, bool), Error> {
-    table.only(&[&["column", "unit", "scale", "offset", "quantity"], &OWN_LOG[..]].concat())?;
-    let quantity = table.get("quantity").map(|v| v.choice(&["angle", "speed"])).transpose()?;
+fn motor(table: &Table<'_>) -> Result<(Axis, Reading, bool), ConfigError> {
+    table.only(&format!("column unit scale offset quantity {OWN_LOG}"))?;
+    let quantity = table.optional("quantity", |v| v.choice(&["angle", "speed"]))?;
     let wanted = quantity == Some(1);
     let unit = table.need("unit")?;
     let (size, found) = unit.any_unit()?;
@@ -334,50 +312,68 @@ fn motor(table: &Table<'_>) -> Result<(Axis, Reading, bool), Error> {
         Dimension::RATE => (Axis::Rotary, true),
         Dimension::VELOCITY => (Axis::Linear, true),
         _ => {
-            return Err(CampaignError::MotorUnit { place: unit.place(), found }.into());
+            return Err(unit.error(
+                format!(
+                    ": the motor is measured in {found}, which is neither an angle nor a length"
+                ),
+                "give \"rad\" or \"deg\" for a rotary axis, \"m\" or \"mm\" for a linear one; counts: \
+                 unit = \"rad\" with scale = rad per count; speeds: \"rpm\" with quantity = \"speed\"",
+            ));
         }
     };
     if speed != wanted {
-        let (place, unit) = (unit.place(), unit.text()?.trim().to_owned());
+        let text = unit.text()?.trim();
         return Err(if speed {
-            CampaignError::SpeedUnit { place, unit }
+            unit.error(
+                format!(
+                    ": \"{text}\" is a unit of speed, but the motor's `quantity` is not \"speed\""
+                ),
+                "add `quantity = \"speed\"`: the angle is then integrated from the speed",
+            )
         } else {
-            CampaignError::NotASpeed { place, unit }
-        }
-        .into());
+            unit.error(
+                format!(
+                    ": \"{text}\" is not a unit of speed, but the motor's `quantity` is \"speed\""
+                ),
+                "give \"rad/s\", \"deg/s\" or \"rpm\" for a rotary axis, \"m/s\" for a linear one, or \
+                 remove `quantity` if the channel is an angle",
+            )
+        });
     }
     Ok((axis, reading(table, size)?, speed))
 }
 
 /// Reads the motor's speed, in addition to its angle.
-fn speed(value: &Value<'_>, axis: Axis, motor_speed: bool) -> Result<Reading, Error> {
+fn speed(value: &Value<'_>, axis: Axis, motor_speed: bool) -> Result<Reading, ConfigError> {
     let table = value.table()?;
     if motor_speed {
-        return Err(CampaignError::TwoSpeeds { place: table.place() }.into());
+        let hint = "remove `speed`, or give the angle as `motor`";
+        return Err(table.error(": the motor's channel is a speed already", hint));
     }
-    table.only(&["column", "unit", "scale", "offset"])?;
+    table.only("column unit scale offset")?;
     let size = table.need("unit")?.unit(match axis {
         Axis::Rotary => Dimension::RATE,
         Axis::Linear => Dimension::VELOCITY,
     })?;
-    Ok(reading(&table, size)?)
+    reading(&table, size)
 }
 
 fn wrong_unit(unit: &Value<'_>, found: Dimension, expected: Dimension) -> ConfigError {
     let text = unit.as_text().unwrap_or_default().to_owned();
-    unit.unit_error(UnitError::Dimension { text, found, expected })
+    unit.unit_error(&UnitError::Dimension { text, found, expected })
 }
 
-fn tip(table: &Table<'_>, axis: Axis, default_name: String) -> Result<(Tip, TipSource), Error> {
-    let name = table.get("name").map(|v| v.text()).transpose()?;
-    let name = name.map_or(default_name, str::to_owned);
+fn tip(
+    table: &Table<'_>,
+    axis: Axis,
+    default_name: String,
+) -> Result<(Tip, TipSource), ConfigError> {
+    let name = table.optional("name", Value::text)?.map_or(default_name, str::to_owned);
     if table.get("x").is_some() || table.get("y").is_some() {
         let tip = Tip { name, quantity: TipQuantity::Angle, calibrated: true };
         return Ok((tip, camera(table, axis)?));
     }
-    let keys =
-        ["name", "column", "unit", "scale", "offset", "quantity", "radius", "x", "y", "origin"];
-    table.only(&[&keys[..], &OWN_LOG[..]].concat())?;
+    table.only(&format!("name column unit scale offset quantity radius x y origin {OWN_LOG}"))?;
     let quantity = quantity(table)?;
     let unit = table.need("unit")?;
     let (size, found) = unit.any_unit()?;
@@ -393,13 +389,17 @@ fn tip(table: &Table<'_>, axis: Axis, default_name: String) -> Result<(Tip, TipS
     let radius = table.get("radius");
     let size = if calibrated && Some(found) == by_radius {
         let Some(radius) = radius else {
-            return Err(CampaignError::NoRadius { place: table.place(), found }.into());
+            return Err(table.error(
+                format!(": {found} at a tip of a rotary axis needs `radius`"),
+                "give the distance of the sensor from the joint and what it measures, as in \
+                 quantity = \"deflection\", radius = \"0.45 m\"",
+            ));
         };
         size / radius.positive(Dimension::LENGTH)?
     } else if calibrated && found != direct {
-        return Err(wrong_unit(&unit, found, direct).into());
+        return Err(wrong_unit(&unit, found, direct));
     } else if let Some(radius) = radius {
-        return Err(CampaignError::NeedlessRadius { place: radius.place() }.into());
+        return Err(radius.error(": a radius does not apply to this tip", "remove `radius`"));
     } else {
         size
     };
@@ -407,37 +407,37 @@ fn tip(table: &Table<'_>, axis: Axis, default_name: String) -> Result<(Tip, TipS
 }
 
 fn quantity(table: &Table<'_>) -> Result<TipQuantity, ConfigError> {
-    let Some(value) = table.get("quantity") else {
-        return Ok(TipQuantity::Angle);
-    };
-    Ok(match value.choice(&["angle", "deflection", "acceleration"])? {
-        0 => TipQuantity::Angle,
-        1 => TipQuantity::Deflection,
+    let words = ["angle", "deflection", "acceleration"];
+    Ok(match table.optional("quantity", |v| v.choice(&words))? {
+        None | Some(0) => TipQuantity::Angle,
+        Some(1) => TipQuantity::Deflection,
         _ => TipQuantity::Acceleration,
     })
 }
 
-fn camera(table: &Table<'_>, axis: Axis) -> Result<TipSource, Error> {
+fn camera(table: &Table<'_>, axis: Axis) -> Result<TipSource, ConfigError> {
     table.one_of(&["column", "x"])?;
-    let keys = ["name", "x", "y", "unit", "origin", "scale", "quantity"];
-    table.only(&[&keys[..], &OWN_LOG[..]].concat())?;
+    table.only(&format!("name x y unit origin scale quantity {OWN_LOG}"))?;
     if axis == Axis::Linear {
-        return Err(CampaignError::CameraOnLinear { place: table.place() }.into());
+        return Err(table.error(
+            ": x and y of a camera give an angle, but the motor is measured in metres",
+            "give one column with a unit of length",
+        ));
     }
     if quantity(table)? != TipQuantity::Angle {
-        return Err(CampaignError::CameraQuantity { place: table.place() }.into());
+        return Err(table.error(
+            ": x and y of a camera can only give the angle of the radius to the point",
+            "remove `quantity`",
+        ));
     }
-    let origin = match table.get("origin") {
-        None => [0.0; 2],
-        Some(value) => match &value.list("a list of x and y")?[..] {
-            [x, y] => [x.number()?, y.number()?],
-            _ => return Err(value.kind("a list of x and y").into()),
-        },
-    };
+    let origin = table.optional("origin", |value| match &value.list("a list of x and y")?[..] {
+        [x, y] => Ok([x.number()?, y.number()?]),
+        _ => Err(value.kind("a list of x and y")),
+    })?;
     Ok(TipSource::Camera {
         x: column(&table.need("x")?)?,
         y: column(&table.need("y")?)?,
-        origin,
+        origin: origin.unwrap_or_default(),
         scale: scale(table)?,
     })
 }

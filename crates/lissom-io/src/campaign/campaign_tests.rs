@@ -215,7 +215,7 @@ fn an_arm_to_compare_with() {
     let text = PLAIN.replace("[drive]", "[drive]\narm = \"arm.toml\"");
     let arm = "[rig]\nsample_time = \"3 ms\"\n";
     let file = read_logs(&text, &[("a.csv", &log(0..100)), ("arm.toml", arm)]).unwrap();
-    assert_eq!(file.known.arm.unwrap().rig.unwrap().sample_time_s, 0.003);
+    assert_eq!(file.known.arm.unwrap().rig.unwrap().instruments.sample_time_s, 0.003);
     assert!(file.known.arm_path.unwrap().ends_with("arm.toml"));
 }
 

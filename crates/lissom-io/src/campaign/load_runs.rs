@@ -10,7 +10,6 @@ use lissom_core::record::{
 };
 use rayon::prelude::*;
 
-use super::campaign_error::CampaignError;
 use super::campaign_file::ReadOptions;
 use super::campaign_signals::{CommandKind, Signals, TimeSource, TipSource};
 use super::conversions::{camera_angle, channel_in_range, in_si, stamps_s};
@@ -21,6 +20,7 @@ use super::run_spec::RunSpec;
 use super::several_runs;
 use super::speed_check::{self, Contradiction};
 use super::whole_turns;
+use crate::config::{ConfigError, ConfigPlace};
 use crate::io_error::Error;
 use crate::log::{self, ColumnRef, Log, LogColumn, LogError, LogOptions, TimeBack};
 
@@ -56,7 +56,13 @@ pub(super) fn load(
         // Equal samples are one channel given twice; no two sensors agree in every sample of a motion.
         let is_motor = |run: &Run| run.tips()[k] == run.motor();
         if tip.quantity == TipQuantity::Angle && !runs.is_empty() && runs.iter().all(is_motor) {
-            return Err(CampaignError::TipIsMotor { tip: tip.name.clone() }.into());
+            let problem = format!(
+                "tip \"{}\" has the same samples as the motor in every run: it shows no bending of the arm",
+                tip.name
+            );
+            let hint =
+                "give the channel of the sensor at the tip; for a rigid axis, leave the tip out";
+            return Err(ConfigError::new(ConfigPlace::default(), problem, hint).into());
         }
     }
     let channels = Channels { axis: signals.axis, command, tips };
@@ -103,8 +109,12 @@ fn load_run(
         if let Some((omega_rad_s, place)) = &spec.omega_rad_s {
             run = run.with_omega(*omega_rad_s).map_err(|error| match error {
                 RecordError::Omega { found_rad_s, nyquist_rad_s, .. } => {
-                    let (place, log) = (place.clone(), file.clone());
-                    CampaignError::AboveNyquist { place, found_rad_s, log, nyquist_rad_s }.into()
+                    let problem = format!(
+                        " is {found_rad_s:.4} rad/s, but must be below {nyquist_rad_s:.4} rad/s, the Nyquist frequency of {file}"
+                    );
+                    let hint = "`omega_rad_s` is in rad/s; `frequency = \"5 Hz\"` has a unit; check \
+                                also the unit of the time stamps";
+                    ConfigError::new(place.clone(), problem, hint).into()
                 }
                 other => of_log(other, &file),
             })?;

@@ -49,7 +49,6 @@
 #[cfg(test)]
 mod campaign_channel_tests;
 mod campaign_drive;
-pub(crate) mod campaign_error;
 mod campaign_file;
 mod campaign_load;
 mod campaign_signals;
@@ -70,7 +69,6 @@ mod several_runs;
 mod speed_check;
 mod whole_turns;
 
-pub use campaign_error::CampaignError;
 pub use campaign_file::{AnalysisOptions, CampaignFile, DriveConstants, ReadOptions};
 pub(crate) use campaign_signals::column;
 pub use memory_logs::MemoryLogs;

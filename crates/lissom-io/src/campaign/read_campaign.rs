@@ -5,7 +5,6 @@ use std::path::{Component, Path, PathBuf};
 use lissom_core::record::Command;
 
 use super::campaign_drive;
-use super::campaign_error::CampaignError;
 use super::campaign_file::{AnalysisOptions, CampaignFile, DriveConstants, ReadOptions};
 use super::campaign_load::{self, CampaignLoad};
 use super::campaign_signals::{Signals, signals};
@@ -13,7 +12,7 @@ use super::load_runs::load;
 use super::memory_logs::{LogPlaces, MemoryLogs};
 use super::own_logs::logs_of_run;
 use super::run_spec::{RunSpec, runs};
-use crate::config::{ConfigError, Source, Table};
+use crate::config::{ConfigError, Source, Table, Value};
 use crate::io_error::Error;
 use crate::log::LogPath;
 use crate::units::Dimension;
@@ -76,7 +75,7 @@ impl CampaignReader {
     /// own. Each file is listed once, without a group of channels in it. No log is read.
     ///
     /// # Errors
-    /// [`Error::Config`] and [`Error::Campaign`] for signals and runs.
+    /// [`Error::Config`] for signals and runs.
     pub fn run_files(self) -> Result<Vec<PathBuf>, Error> {
         let source = self.source?;
         files_of_runs(&source.root(&source.parse()?))
@@ -103,7 +102,7 @@ impl CampaignReader {
     /// Reads the campaign.
     ///
     /// # Errors
-    /// [`Error::Config`] and [`Error::Campaign`] for the description itself and its `arm.toml`,
+    /// [`Error::Config`] for the description itself and its `arm.toml`,
     /// [`Error::Log`] and [`Error::Record`] for the logs.
     pub fn read(self) -> Result<CampaignFile, Error> {
         let source = self.source?;
@@ -161,7 +160,12 @@ fn confine(source: &Source) -> Result<(), Error> {
         file.components().all(|c| matches!(c, Component::Normal(_) | Component::CurDir))
     };
     match files.into_iter().find(|file| !is_inside(file)) {
-        Some(file) => Err(CampaignError::Outside { file: file.display().to_string() }.into()),
+        Some(file) => Err(ConfigError::of_file(
+            &file,
+            "is not inside the folder of the campaign",
+            "name a file that is given together with the campaign, without a folder above it",
+        )
+        .into()),
         None => Ok(()),
     }
 }
@@ -180,21 +184,18 @@ struct Described {
 fn described(source: &Source, only: &[PathBuf]) -> Result<Described, Error> {
     let document = source.parse()?;
     let root = source.root(&document);
-    root.only(&["signals", "drive", "load", "analysis", "runs"])?;
+    root.only("signals drive load analysis runs")?;
     let mut signals = signals(&root.need("signals")?.table()?)?;
-    let drive = root.get("drive").map(|v| v.table()).transpose()?;
+    let drive = root.optional("drive", Value::table)?;
     let (command, known, sign) =
         campaign_drive::drive(drive.as_ref(), signals.axis, &signals.command, source.folder())?;
     signals.command.reading.gain *= sign;
     signals.command.reading.offset *= sign;
-    let load_table = root.get("load").map(|v| v.table()).transpose()?;
+    let load_table = root.optional("load", Value::table)?;
     let on_motor = load_table.map(|table| campaign_load::load(&table, &signals));
     let on_motor = on_motor.transpose()?.unwrap_or_default();
     signals.gravity = on_motor.gravity;
-    let (analysis, skip_s) = match root.get("analysis") {
-        Some(value) => analysis(&value.table()?)?,
-        None => (AnalysisOptions::default(), None),
-    };
+    let (analysis, skip_s) = root.optional("analysis", analysis)?.unwrap_or_default();
     let runs = if only.is_empty() {
         runs(&root.need("runs")?, skip_s)?
     } else {
@@ -222,13 +223,14 @@ fn read(
     Ok(CampaignFile { campaign, known, analysis })
 }
 
-fn analysis(table: &Table<'_>) -> Result<(AnalysisOptions, Option<f64>), ConfigError> {
-    table.only(&["window", "harmonics", "skip"])?;
+fn analysis(value: &Value<'_>) -> Result<(AnalysisOptions, Option<f64>), ConfigError> {
+    let table = value.table()?;
+    table.only("window harmonics skip")?;
     let windows = table.get("window").map_or_else(Vec::new, |value| value.one_or_list());
     let window_s =
         windows.iter().map(|v| v.positive(Dimension::TIME)).collect::<Result<Vec<_>, _>>()?;
-    let harmonics = table.get("harmonics").map(|v| v.whole(1, 99)).transpose()?;
+    let harmonics = table.optional("harmonics", |v| v.whole(1, 99))?;
     let harmonics = harmonics.and_then(|count| usize::try_from(count).ok());
-    let skip_s = table.get("skip").map(|v| v.not_negative(Dimension::TIME)).transpose()?;
+    let skip_s = table.not_negative("skip", Dimension::TIME)?;
     Ok((AnalysisOptions { window_s, harmonics }, skip_s))
 }

@@ -4,7 +4,7 @@ use std::path::{Path, PathBuf};
 
 use lissom_core::record::clock::Trim;
 
-use crate::config::{ConfigError, ConfigPlace, Rule, Table, Value};
+use crate::config::{ConfigError, ConfigPlace, Table, Value};
 use crate::log::{LogPart, LogPath};
 use crate::units::Dimension;
 
@@ -59,29 +59,19 @@ pub(super) fn runs(value: &Value<'_>, skip_s: Option<f64>) -> Result<Vec<RunSpec
 
 fn run(value: &Value<'_>, skip_s: Option<f64>) -> Result<RunSpec, ConfigError> {
     let table = value.table()?;
-    table.only(&[
-        "file",
-        "name",
-        "omega_rad_s",
-        "frequency",
-        "skip",
-        "until",
-        "leave_out",
-        "motor_file",
-        "tip_files",
-    ])?;
+    table.only("file name omega_rad_s frequency skip until leave_out motor_file tip_files")?;
     let file = table.need("file")?.text()?;
-    let name = table.get("name").map(|v| v.text()).transpose()?.unwrap_or(file);
+    let name = table.optional("name", Value::text)?.unwrap_or(file);
     let omega_rad_s = match table.one_of(&["omega_rad_s", "frequency"])? {
         None => None,
         Some((0, value)) => match value.number()? {
             omega if omega > 0.0 => Some((omega, value.place())),
-            _ => return Err(value.range(Rule::Positive)),
+            _ => return Err(value.range("greater than zero")),
         },
         Some((_, value)) => Some((value.positive(Dimension::RATE)?, value.place())),
     };
     let trim = trim(&table, skip_s)?;
-    let motor_file = table.get("motor_file").map(|v| v.text()).transpose()?;
+    let motor_file = table.optional("motor_file", Value::text)?;
     let tip_files = table.get("tip_files").map_or_else(Vec::new, |value| value.one_or_list());
     let tip_files =
         tip_files.iter().map(|v| v.text().map(PathBuf::from)).collect::<Result<_, _>>()?;
@@ -99,8 +89,8 @@ fn run(value: &Value<'_>, skip_s: Option<f64>) -> Result<RunSpec, ConfigError> {
 
 /// Which times of the log are left out.
 fn trim(table: &Table<'_>, skip_s: Option<f64>) -> Result<Trim, ConfigError> {
-    let skip = table.get("skip").map(|v| v.not_negative(Dimension::TIME)).transpose()?;
-    let until_s = table.get("until").map(|v| v.positive(Dimension::TIME)).transpose()?;
+    let skip = table.not_negative("skip", Dimension::TIME)?;
+    let until_s = table.positive("until", Dimension::TIME)?;
     let mut left_out_s = Vec::new();
     if let Some(all) = table.get("leave_out") {
         const STRETCHES: &str = "a list of stretches, each from and to: [[\"3 s\", \"4.5 s\"]]";

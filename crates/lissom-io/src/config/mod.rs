@@ -6,5 +6,5 @@
 mod config_error;
 mod config_table;
 
-pub use config_error::{ConfigError, ConfigPlace, Rule};
+pub use config_error::{ConfigError, ConfigPlace};
 pub(crate) use config_table::{MAGNITUDE, Source, Table, Value};

@@ -4,21 +4,21 @@ use std::path::Path;
 
 use lissom_core::arm::Arm;
 use lissom_core::beam::Beam;
-use lissom_core::drive::Falloff;
-use lissom_core::rig::JointFriction;
 
 use super::export_model::{ExportModel, export_model_of_arm};
 use super::hinge_chain::HingeChain;
 use super::mjcf::mjcf;
 use super::mjcf_chain::mjcf_chain;
-use crate::arm_file::{ArmError, ArmFile, BeamKind, DriveSpec};
+use crate::arm_file::arm_error::load_on_beam;
+use crate::arm_file::{ArmFile, BeamKind, DriveSpec};
+use crate::config::ConfigError;
 use crate::io_error::Error;
 
 /// The model of the arm that an `arm.toml` describes, with its whole friction law and, for a rigid joint, gravity of its
 /// load; `path` is the file's name in errors.
 ///
 /// # Errors
-/// [`Error::Arm`] if the file describes no arm of point masses, modes or a rigid joint; [`Error::Export`] if the arm has
+/// [`Error::Config`] if the file describes no arm of point masses, modes or a rigid joint; [`Error::Export`] if the arm has
 /// no such model: too many modes, or modes that are not distinct.
 pub fn export_model_of_arm_file(path: &Path, file: &ArmFile) -> Result<ExportModel, Error> {
     with_joint(path, file, &file.arm(path)?)
@@ -28,15 +28,13 @@ pub fn export_model_of_arm_file(path: &Path, file: &ArmFile) -> Result<ExportMod
 /// otherwise its modes as oscillators on the motor's axis ([`mjcf`]); `path` is the file's name in errors.
 ///
 /// # Errors
-/// [`Error::Arm`] if the file describes no arm, [`Error::Export`] if the arm has no such model.
+/// [`Error::Config`] if the file describes no arm, [`Error::Export`] if the arm has no such model.
 pub fn mjcf_of_arm_file(path: &Path, file: &ArmFile) -> Result<String, Error> {
     let kind = if file.rigid { None } else { Some(file.beam_kind(path)?) };
     if matches!(kind, None | Some(BeamKind::Modal)) {
         return Ok(mjcf(&export_model_of_arm_file(path, file)?)?);
     }
-    let (motor, coulomb) = file
-        .motor(path)?
-        .ok_or_else(|| ArmError::MissingTable { file: path.to_owned(), table: "drive" })?;
+    let (motor, coulomb) = file.motor(path)?;
     let inertia = motor.inertia_kg_m2();
     let chain = if kind == Some(BeamKind::Distributed) {
         HingeChain::of_distributed(&file.distributed_beam(path)?, inertia)
@@ -44,7 +42,7 @@ pub fn mjcf_of_arm_file(path: &Path, file: &ArmFile) -> Result<String, Error> {
         HingeChain::of_lumped(&file.lumped_beam(path)?, inertia)
     };
     let joint = Arm::new(Beam::Rigid, motor, coulomb)
-        .map_err(|source| ArmError::Beam { file: path.to_owned(), source })?;
+        .map_err(|source| ConfigError::of_arm(path, source))?;
     Ok(mjcf_chain(&with_joint(path, file, &joint)?, &chain)?)
 }
 
@@ -52,11 +50,11 @@ pub fn mjcf_of_arm_file(path: &Path, file: &ArmFile) -> Result<String, Error> {
 fn with_joint(path: &Path, file: &ArmFile, arm: &Arm) -> Result<ExportModel, Error> {
     let mut model = export_model_of_arm(path, arm)?;
     if let Some(drive) = &file.drive {
-        add_friction(&mut model, path, drive, arm)?;
+        add_friction(&mut model, drive);
     }
     if let Some(load) = &file.load {
         if !file.rigid {
-            return Err(ArmError::LoadOnBeam { file: path.to_owned() }.into());
+            return Err(load_on_beam(path).into());
         }
         model.arm.gravity = Some(load.gravity());
     }
@@ -64,27 +62,13 @@ fn with_joint(path: &Path, file: &ArmFile, arm: &Arm) -> Result<ExportModel, Err
 }
 
 /// Friction of the joint that is not constant, and torque ripples.
-fn add_friction(
-    model: &mut ExportModel,
-    path: &Path,
-    drive: &DriveSpec,
-    arm: &Arm,
-) -> Result<(), ArmError> {
+fn add_friction(model: &mut ExportModel, drive: &DriveSpec) {
     model.arm.torque_ripples.clone_from(&drive.torque_ripples);
-    let apart = drive.friction.viscous_apart_nm_s_per_rad;
-    let mean = drive.viscous_nm_s_per_rad;
+    let (mean, apart) = (drive.motor.viscous_nm_s_per_rad(), drive.viscous_apart_nm_s_per_rad);
     model.arm.viscous_nm_s_per_rad = [mean + apart, mean - apart];
-    // Bristles slide as a law with the same friction at rest and a Gaussian.
-    let mut sliding = drive.friction;
-    model.bristles = sliding.bristles.take().is_some();
-    if let (true, Some(rest)) = (model.bristles, &mut sliding.rest) {
-        rest.falloff = Falloff::Gaussian;
+    model.bristles = drive.friction.bristles.is_some();
+    // Bristles slide as their law of steady motion.
+    if !drive.friction.law.is_constant() {
+        model.arm.dry_terms = drive.friction.law.terms().clone();
     }
-    let joint = sliding
-        .joint(arm.coulomb)
-        .map_err(|source| ArmError::Drive { file: path.to_owned(), source })?;
-    if let JointFriction::Dry(law) = joint {
-        model.arm.dry_terms = law.terms().clone();
-    }
-    Ok(())
 }

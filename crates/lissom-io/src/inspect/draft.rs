@@ -339,13 +339,13 @@ impl Signals<'_> {
             let role = match key {
                 CommandKey::Current => Role::Current,
                 CommandKey::Voltage => Role::Voltage,
-                CommandKey::Command => Role::Torque,
+                CommandKey::Torque | CommandKey::Goal => Role::Torque,
             };
             (*key, role, Ok(self.picks.named(choice)?))
         } else {
             let roles = [
                 (CommandKey::Current, Role::Current),
-                (CommandKey::Command, Role::Torque),
+                (CommandKey::Torque, Role::Torque),
                 (CommandKey::Voltage, Role::Voltage),
             ];
             let known = |role: &Role| {
@@ -357,7 +357,11 @@ impl Signals<'_> {
         Ok(match picked {
             Ok(picked) => {
                 let (hold, why) = self.hold(&picked);
-                let mut line = self.line(key.name(), role, &picked, &[("hold", quoted(hold))]);
+                let mut more = vec![("hold", quoted(hold))];
+                if key == CommandKey::Goal {
+                    more.push(("quantity", quoted("goal")));
+                }
+                let mut line = self.line(key.name(), role, &picked, &more);
                 if line.missing.is_none()
                     && let Some(why) = why
                 {

@@ -8,7 +8,7 @@ use lissom_formats::LogData;
 use super::clock_facts::ClockFacts;
 use super::inspected_channel::InspectedChannel;
 use super::relations::Relation;
-use super::words::{commanded, words};
+use super::words::{commanded, is_among, words};
 use crate::units::Dimension;
 
 /// Role of a channel.
@@ -45,57 +45,20 @@ impl Role {
     }
 
     /// Words of names that speak for the role.
-    fn words(self) -> &'static [&'static str] {
+    fn words(self) -> &'static str {
         match self {
-            Self::Time => {
-                &["t", "time", "zeit", "timestamp", "stamp", "temps", "tiempo", "x_value", "sec"]
+            Self::Time => "t time zeit timestamp stamp temps tiempo x_value sec",
+            Self::Current => "i iq current strom courant corriente cur curr amps amp",
+            Self::Torque => "torque tau trq effort moment drehmoment force kraft",
+            Self::Voltage => "u uq voltage volt volts spannung pwm duty",
+            Self::Motor => {
+                "q pos position angle theta winkel phi enc encoder lage weg posicion joint motor hub \
+                 shaft rotor"
             }
-            Self::Current => &[
-                "i",
-                "iq",
-                "current",
-                "strom",
-                "courant",
-                "corriente",
-                "cur",
-                "curr",
-                "amps",
-                "amp",
-            ],
-            Self::Torque => {
-                &["torque", "tau", "trq", "effort", "moment", "drehmoment", "force", "kraft"]
+            Self::Speed => {
+                "speed velocity vel omega qd dq qdot drehzahl geschwindigkeit vitesse rpm"
             }
-            Self::Voltage => &["u", "uq", "voltage", "volt", "volts", "spannung", "pwm", "duty"],
-            Self::Motor => &[
-                "q", "pos", "position", "angle", "theta", "winkel", "phi", "enc", "encoder",
-                "lage", "weg", "posicion", "joint", "motor", "hub", "shaft", "rotor",
-            ],
-            Self::Speed => &[
-                "speed",
-                "velocity",
-                "vel",
-                "omega",
-                "qd",
-                "dq",
-                "qdot",
-                "drehzahl",
-                "geschwindigkeit",
-                "vitesse",
-                "rpm",
-            ],
-            Self::Tip => &[
-                "tip",
-                "end",
-                "ee",
-                "alpha",
-                "strain",
-                "deflection",
-                "acc",
-                "accel",
-                "accelerometer",
-                "camera",
-                "beam",
-            ],
+            Self::Tip => "tip end ee alpha strain deflection acc accel accelerometer camera beam",
         }
     }
 
@@ -121,8 +84,7 @@ impl Role {
 }
 
 /// Words of channels that are none of the motor's.
-const OTHERS: [&str; 8] =
-    ["id", "temp", "temperature", "status", "state", "index", "flag", "count"];
+const OTHERS: &str = "id temp temperature status state index flag count";
 /// What a unit and a word count.
 const UNIT: i32 = 3;
 const WORD: i32 = 2;
@@ -192,14 +154,14 @@ impl Roles {
 /// Points of a channel for a role, with the reason; `None` if nothing speaks for it.
 fn score(role: Role, channel: &InspectedChannel) -> Option<(i32, String)> {
     let words = words(&channel.name);
-    let has = |list: &[&str]| words.iter().find(|w| list.contains(&w.as_str()));
+    let has = |list: &str| words.iter().find(|w| is_among(w, list));
     let other_motion = [Role::Speed, Role::Current, Role::Torque, Role::Voltage];
     let not_a_position =
         role == Role::Motor && other_motion.iter().any(|other| has(other.words()).is_some());
     let wish = commanded(&words);
     // What the controller wished is no motion.
     let wished_motion = wish.is_some() && [Role::Motor, Role::Speed, Role::Tip].contains(&role);
-    if has(&OTHERS).is_some() || not_a_position || wished_motion {
+    if has(OTHERS).is_some() || not_a_position || wished_motion {
         return None;
     }
     let mut points = 0;
@@ -236,14 +198,10 @@ fn score(role: Role, channel: &InspectedChannel) -> Option<(i32, String)> {
     if of_tip {
         points -= WORD;
     }
-    if role == Role::Motor
-        && has(&["motor", "m", "act", "actual", "ist", "meas", "measured"]).is_some()
-    {
+    if role == Role::Motor && has("motor m act actual ist meas measured").is_some() {
         points += 1;
     }
-    if role == Role::Current
-        && has(&["q", "iq", "act", "actual", "ist", "meas", "measured"]).is_some()
-    {
+    if role == Role::Current && has("q iq act actual ist meas measured").is_some() {
         points += 1;
     }
     (points > 0).then(|| (points, why.join(", ")))
@@ -271,8 +229,7 @@ pub(super) fn looks_like_time(channels: &[InspectedChannel], data: &LogData) -> 
         let channel = &channels[k];
         let unit = channel.dimension() == Some(Dimension::TIME);
         let name = channel.name.to_lowercase();
-        let word =
-            words(&channel.name).into_iter().find(|w| Role::Time.words().contains(&w.as_str()));
+        let word = words(&channel.name).into_iter().find(|w| is_among(w, Role::Time.words()));
         let word = word.or_else(|| (name == "x_value").then_some(name));
         let first = k == 0 && unnamed;
         let points = 2 * i32::from(unit) + 2 * i32::from(word.is_some()) + i32::from(first);

@@ -2,7 +2,7 @@
 
 use lissom_formats::Channel;
 
-use super::words::words;
+use super::words::{is_among, words};
 use crate::units::{Dimension, parse_any_unit};
 
 /// A unit that the file states.
@@ -25,77 +25,34 @@ pub enum UnitSource {
     Name,
 }
 
-/// Other spellings, in small letters, and the unit.
-const SPELLINGS: [(&str, &str); 53] = [
-    ("ncm", "cN*m"),
-    ("n*cm", "cN*m"),
-    ("n·cm", "cN*m"),
-    ("oz-in", "ozf*in"),
-    ("oz.in", "ozf*in"),
-    ("oz*in", "ozf*in"),
-    ("ozin", "ozf*in"),
-    ("kg-cm", "kgf*cm"),
-    ("kg.cm", "kgf*cm"),
-    ("kgf-cm", "kgf*cm"),
-    ("kgf.cm", "kgf*cm"),
-    ("turns", "turn"),
-    ("revs", "turn"),
-    ("revolution", "turn"),
-    ("revolutions", "turn"),
-    ("umdr", "turn"),
-    ("grad", "deg"),
-    ("min^-1", "rpm"),
-    ("min-1", "rpm"),
-    ("min⁻¹", "rpm"),
-    ("1/minute", "rpm"),
-    ("sec", "s"),
-    ("secs", "s"),
-    ("second", "s"),
-    ("seconds", "s"),
-    ("msec", "ms"),
-    ("millis", "ms"),
-    ("milliseconds", "ms"),
-    ("usec", "us"),
-    ("micros", "us"),
-    ("microseconds", "us"),
-    ("nanoseconds", "ns"),
-    ("nsec", "ns"),
-    ("amp", "A"),
-    ("amps", "A"),
-    ("ampere", "A"),
-    ("amperes", "A"),
-    ("volt", "V"),
-    ("volts", "V"),
-    ("degree", "deg"),
-    ("degrees", "deg"),
-    ("radian", "rad"),
-    ("radians", "rad"),
-    ("rads", "rad"),
-    ("rads/s", "rad/s"),
-    ("rads/sec", "rad/s"),
-    ("radians/s", "rad/s"),
-    ("radians/sec", "rad/s"),
-    ("u/min", "rpm"),
-    ("1/min", "rpm"),
-    ("n.m", "N*m"),
-    ("n-m", "N*m"),
-    ("meters", "m"),
+/// Units, and other spellings of them in small letters.
+const SPELLINGS: [(&str, &str); 16] = [
+    ("cN*m", "ncm n*cm n·cm"),
+    ("ozf*in", "oz-in oz.in oz*in ozin"),
+    ("kgf*cm", "kg-cm kg.cm kgf-cm kgf.cm"),
+    ("turn", "turns revs revolution revolutions umdr"),
+    ("deg", "grad degree degrees"),
+    ("rpm", "min^-1 min-1 min⁻¹ 1/minute u/min 1/min"),
+    ("s", "sec secs second seconds"),
+    ("ms", "msec millis milliseconds"),
+    ("us", "usec micros microseconds"),
+    ("ns", "nanoseconds nsec"),
+    ("A", "amp amps ampere amperes"),
+    ("V", "volt volts"),
+    ("rad", "radian radians rads"),
+    ("rad/s", "rads/s rads/sec radians/s radians/sec"),
+    ("N*m", "n.m n-m"),
+    ("m", "meters"),
 ];
 
 /// Units of which the file does not say which they are: turns or radians in a time, a degree (in German) or a 400th of a turn, a
 /// thousandth or a million.
 const AMBIGUOUS: [&str; 9] = ["1/s", "s^-1", "s-1", "s⁻¹", "grad", "Mrad", "Mm", "MA", "Ms"];
 
-/// Ends of names that state a unit, and the unit. Letters of ambiguous size, such as `m` and `s`, are not among them.
-const ENDS: [(&str, &str); 25] = [
-    ("rad_s", "rad/s"),
-    ("rad_per_s", "rad/s"),
-    ("radps", "rad/s"),
-    ("rads", "rad/s"),
-    ("rad/s", "rad/s"),
-    ("deg_s", "deg/s"),
-    ("degps", "deg/s"),
-    ("deg/s", "deg/s"),
+/// Units, and ends of names that state them. Letters of ambiguous size, such as `m` and `s`, are not among them.
+const ENDS: [(&str, &str); 18] = [
+    ("rad/s", "rad_s rad_per_s radps rads rad/s"),
+    ("deg/s", "deg_s degps deg/s"),
     ("rpm", "rpm"),
     ("rad", "rad"),
     ("mrad", "mrad"),
@@ -104,11 +61,10 @@ const ENDS: [(&str, &str); 25] = [
     ("mA", "mA"),
     ("V", "V"),
     ("mV", "mV"),
-    ("Nm", "N*m"),
-    ("mNm", "mN*m"),
-    ("Ncm", "cN*m"),
-    ("um", "um"),
-    ("µm", "um"),
+    ("N*m", "Nm"),
+    ("mN*m", "mNm"),
+    ("cN*m", "Ncm"),
+    ("um", "um µm"),
     ("ms", "ms"),
     ("us", "us"),
     ("ns", "ns"),
@@ -129,8 +85,8 @@ pub(super) fn known_unit(text: &str) -> StatedUnit {
     // "theta in rad".
     let text = text.rsplit_once(" in ").map_or(text, |(_, unit)| unit.trim());
     let small = text.to_lowercase();
-    let spelled = SPELLINGS.iter().find(|(spelling, _)| *spelling == small);
-    let unit = spelled.map_or_else(|| text.to_owned(), |(_, unit)| (*unit).to_owned());
+    let spelled = SPELLINGS.iter().find(|(_, spellings)| is_among(&small, spellings));
+    let unit = spelled.map_or(text, |(unit, _)| unit).to_owned();
     if AMBIGUOUS.contains(&text) {
         return StatedUnit { text: text.to_owned(), source: UnitSource::File, known: None };
     }
@@ -145,13 +101,11 @@ fn of_name(name: &str) -> Option<String> {
         let before = name.strip_suffix(end)?;
         (!before.is_empty() && before.ends_with(['_', '.', ' ', '-', '/'])).then_some(before)
     };
-    let stated = ENDS.iter().find(|(end, _)| begins(end).is_some());
-    if let Some((_, unit)) = stated {
+    let stated = ENDS.iter().find(|(_, ends)| ends.split(' ').any(|end| begins(end).is_some()));
+    if let Some((unit, _)) = stated {
         return Some((*unit).to_owned());
     }
-    let time = |before: &str| {
-        words(before).iter().any(|w| matches!(w.as_str(), "t" | "time" | "zeit" | "stamp"))
-    };
+    let time = |before: &str| words(before).iter().any(|w| is_among(w, "t time zeit stamp"));
     begins("s").filter(|before| time(before)).map(|_| "s".to_owned())
 }
 

@@ -1,5 +1,7 @@
 //! What a user says about a channel: `COLUMN[:UNIT][,key=value...]`.
 
+use serde::{Deserialize, Serialize};
+
 use super::draft_error::DraftError;
 use super::stated_unit::known_unit;
 use crate::units::parse_any_unit;
@@ -15,24 +17,27 @@ pub struct Choice {
     pub keys: Vec<(String, String)>,
 }
 
-/// Which key of `[signals]` describes the command.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+/// What the command is.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
 pub enum CommandKey {
-    /// `current`.
+    /// A current.
     Current,
-    /// `voltage`.
+    /// A voltage.
     Voltage,
-    /// `command`: a torque, a number of unknown unit, or with `quantity = "goal"` a position reference.
-    Command,
+    /// A torque, or a number of unknown unit.
+    Torque,
+    /// The position reference of a servo.
+    Goal,
 }
 
 impl CommandKey {
-    /// The key.
+    /// The key of `[signals]`.
     pub fn name(self) -> &'static str {
         match self {
             Self::Current => "current",
             Self::Voltage => "voltage",
-            Self::Command => "command",
+            Self::Torque | Self::Goal => "command",
         }
     }
 }

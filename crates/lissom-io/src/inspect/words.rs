@@ -1,28 +1,17 @@
 //! Words in names of channels.
 
 /// Words that name a value that the controller asks for, not what the drive did.
-const COMMANDED: [&str; 16] = [
-    "ref",
-    "reference",
-    "set",
-    "setpoint",
-    "soll",
-    "cmd",
-    "command",
-    "commanded",
-    "des",
-    "desired",
-    "target",
-    "goal",
-    "demand",
-    "req",
-    "error",
-    "err",
-];
+const COMMANDED: &str = "ref reference set setpoint soll cmd command commanded des desired target goal \
+                         demand req error err";
+
+/// Whether a word is in a list, whose words are separated by spaces.
+pub(super) fn is_among(word: &str, list: &str) -> bool {
+    list.split(' ').any(|known| known == word)
+}
 
 /// The word that says that a value is asked for by the controller.
 pub(super) fn commanded(words: &[String]) -> Option<&str> {
-    let asked = |w: &&String| COMMANDED.contains(&w.as_str()) || w.contains("soll");
+    let asked = |w: &&String| is_among(w, COMMANDED) || w.contains("soll");
     words.iter().find(asked).map(String::as_str)
 }
 

@@ -3,7 +3,7 @@
 use std::path::Path;
 
 use super::path_pattern::PathPattern;
-use crate::config::{ConfigError, Rule, Source, Value};
+use crate::config::{ConfigError, Source, Value};
 use crate::io_error::Error;
 
 /// The content of a `limits.toml`.
@@ -37,30 +37,31 @@ impl LimitsFile {
         let source = Source::read(path)?;
         let document = source.parse()?;
         let root = source.root(&document);
-        root.only(&["path", "limits"])?;
-        let pattern = root.get("path").map(|value| {
+        root.only("path limits")?;
+        let path = root.optional("path", |value| {
             PathPattern::parse(value.text()?).map_err(|expected| value.kind(expected))
-        });
+        })?;
         let value = root.need("limits")?;
         let items = value.list("a list of limits, each a table [[limits]]")?;
         if items.is_empty() {
             return Err(value.empty().into());
         }
         let limits = items.iter().map(limit).collect::<Result<Vec<_>, _>>()?;
-        Ok(Self { path: pattern.transpose()?, limits })
+        Ok(Self { path, limits })
     }
 }
 
 fn limit(value: &Value<'_>) -> Result<Limit, ConfigError> {
     let table = value.table()?;
-    table.only(&["parameter", "unit", "min", "max"])?;
+    table.only("parameter unit min max")?;
     let parameter = table.need("parameter")?.text()?.to_owned();
     let unit = table.need("unit")?.text()?.replace('*', "·").replace("^2", "²");
-    let number = |key: &str| table.get(key).map(|v| v.number()).transpose();
-    let (min, max) = (number("min")?, number("max")?);
+    let (min, max) = (table.optional("min", Value::number)?, table.optional("max", Value::number)?);
     match (min, max) {
-        (None, None) => Err(ConfigError::NoneOf { place: table.place(), keys: vec!["min", "max"] }),
-        (Some(min), Some(max)) if min >= max => Err(table.need("min")?.range(Rule::Below(max))),
+        (None, None) => Err(table.none_of(&["min", "max"])),
+        (Some(min), Some(max)) if min >= max => {
+            Err(table.need("min")?.range(&format!("below {max}")))
+        }
         _ => Ok(Limit { parameter, unit, min, max }),
     }
 }

@@ -15,7 +15,6 @@
 //!
 //! `docs/src/reference/plan.md` explains every key.
 
-pub(crate) mod plan_error;
 mod plan_experiment;
 mod plan_file;
 mod plan_settle;
@@ -23,5 +22,4 @@ mod plan_settle;
 mod plan_tests;
 mod read_plan;
 
-pub use plan_error::PlanError;
 pub use plan_file::{PlanFile, PlanRun};

@@ -8,7 +8,6 @@ use lissom_core::rig::{
     TableHold,
 };
 
-use super::plan_error::PlanError;
 use super::plan_settle::settle;
 use crate::arm_file::omega;
 use crate::campaign::column;
@@ -40,19 +39,16 @@ pub(super) fn read(
     seed: u64,
     folder: &Path,
 ) -> Result<Vec<Planned>, Error> {
-    let own = ["name", "drive", "record", "periods", "settle", "start", "repeat"];
-    table.only(&[&KINDS[..], &own].concat())?;
+    let own = "name drive record periods settle start repeat";
+    table.only(&format!("{} {own}", KINDS.join(" ")))?;
     let Some((kind, value)) = table.one_of(&KINDS)? else {
-        let keys = KINDS.to_vec();
-        return Err(ConfigError::NoneOf { place: table.place(), keys }.into());
+        return Err(table.none_of(&KINDS).into());
     };
-    let drive = table.get("drive").map(|v| v.choice(&["angle", "current"])).transpose()?;
+    let drive = table.optional("drive", |v| v.choice(&["angle", "current"]))?;
     // A release has no position control, unless `drive` asks for it.
     let current = drive.map_or(KINDS[kind] == "release", |choice| choice == 1);
     if current && KINDS[kind] == "velocity" {
-        let place = table.place();
-        let (first, second) = ("velocity", "drive = \"current\"");
-        return Err(ConfigError::Clash { place, first, second }.into());
+        return Err(table.clash("velocity", "drive = \"current\"").into());
     }
     let unit = if current { Dimension::CURRENT } else { Dimension::NUMBER };
     let references = match KINDS[kind] {
@@ -86,7 +82,14 @@ pub(super) fn read(
 }
 
 fn experiment_error(value: &Value<'_>, source: RigError) -> Error {
-    PlanError::Experiment { place: value.place(), source }.into()
+    let hint = match source {
+        RigError::AboveNyquist { .. } => "use lower frequencies, or sample faster",
+        RigError::NoLines | RigError::Line { .. } => {
+            "give a `to` of at least `frequency`: a multisine has odd multiples of `frequency` up to `to`"
+        }
+        _ => "check the numbers and their units",
+    };
+    value.error(format!(": {source}"), hint).into()
 }
 
 fn made<T>(value: &Value<'_>, outcome: Result<T, RigError>) -> Result<T, Error> {
@@ -100,7 +103,7 @@ fn sines(
     make: fn(f64, f64) -> Result<Reference, RigError>,
 ) -> Result<Vec<Reference>, Error> {
     let table = value.table()?;
-    table.only(&["frequency", "omega_rad_s", "amplitude"])?;
+    table.only("frequency omega_rad_s amplitude")?;
     let frequencies: Vec<f64> = match table.one_of(&["frequency", "omega_rad_s"])? {
         Some((0, list)) => each(&list, |v| v.positive(Dimension::RATE))?,
         Some((_, list)) => each(&list, |v| v.positive(Dimension::NUMBER))?,
@@ -109,7 +112,7 @@ fn sines(
     let amplitudes = each(&table.need("amplitude")?, |v| v.positive(unit))?;
     let found = frequencies.len().saturating_mul(amplitudes.len());
     if found > RUNS_MOST {
-        return Err(ConfigError::TooMany { place: value.place(), found, most: RUNS_MOST }.into());
+        return Err(value.too_many(found, RUNS_MOST).into());
     }
     let mut references = Vec::with_capacity(found);
     for amplitude in &amplitudes {
@@ -133,11 +136,11 @@ fn each(
 
 fn multisine(value: &Value<'_>, unit: Dimension, seed: u64) -> Result<Reference, Error> {
     let table = value.table()?;
-    table.only(&["frequency", "omega_rad_s", "to", "amplitude", "crest", "phases"])?;
+    table.only("frequency omega_rad_s to amplitude crest phases")?;
     let base = omega(&table)?;
-    let to = table.get("to").map(|v| v.positive(Dimension::RATE)).transpose()?;
+    let to = table.positive("to", Dimension::RATE)?;
     let amplitude = table.need("amplitude")?.positive(unit)?;
-    let own = table.get("phases").map(|v| v.whole(0, i64::MAX)).transpose()?;
+    let own = table.optional("phases", |v| v.whole(0, i64::MAX))?;
     let seed = own.map_or(seed, i64::unsigned_abs);
     let top = to.unwrap_or((2.0 * LINES - 1.0) * base);
     let mut multisine = made(value, Multisine::odd(base, top, amplitude, seed))?;
@@ -149,8 +152,8 @@ fn multisine(value: &Value<'_>, unit: Dimension, seed: u64) -> Result<Reference,
 
 fn chirp(value: &Value<'_>, unit: Dimension, record_s: f64) -> Result<Reference, Error> {
     let table = value.table()?;
-    table.only(&["from", "to", "amplitude", "sweep"])?;
-    let sweep = table.get("sweep").map(|v| v.choice(&["logarithmic", "linear"])).transpose()?;
+    table.only("from to amplitude sweep")?;
+    let sweep = table.optional("sweep", |v| v.choice(&["logarithmic", "linear"]))?;
     let sweep = if sweep == Some(1) { Sweep::Linear } else { Sweep::Logarithmic };
     let span = (
         table.need("from")?.positive(Dimension::RATE)?,
@@ -168,14 +171,14 @@ fn velocities(value: &Value<'_>) -> Result<Vec<Reference>, Error> {
 /// Reads a table of times and values from a file; its path starts from the folder of the plan.
 fn rows(value: &Value<'_>, folder: &Path) -> Result<Reference, Error> {
     let table = value.table()?;
-    table.only(&["file", "time", "time_unit", "value", "unit", "hold"])?;
+    table.only("file time time_unit value unit hold")?;
     let column = |key: &str, or: usize| {
         table.get(key).map_or(Ok(ColumnRef::Number(or)), |value| column(&value))
     };
     let scale = |key: &str| -> Result<f64, ConfigError> {
         table.get(key).map_or(Ok(1.0), |v| v.any_unit().map(|(size, _)| size))
     };
-    let hold = table.get("hold").map(|v| v.choice(&["lines", "steps"])).transpose()?;
+    let hold = table.optional("hold", |v| v.choice(&["lines", "steps"]))?;
     let hold = if hold == Some(1) { TableHold::Zero } else { TableHold::Linear };
     let path = folder.join(table.need("file")?.text()?);
     let (time, reading) = (column("time", 1)?, column("value", 2)?);
@@ -194,21 +197,13 @@ fn rows(value: &Value<'_>, folder: &Path) -> Result<Reference, Error> {
 fn start(table: &Table<'_>, kind: &str, value: &Value<'_>) -> Result<Start, Error> {
     if kind == "release" {
         if table.get("start").is_some() {
-            let place = table.place();
-            return Err(ConfigError::Clash { place, first: "release", second: "start" }.into());
+            return Err(table.clash("release", "start").into());
         }
         return Ok(Start::Deflected { tip_force_n: value.quantity(Dimension::FORCE)? });
     }
-    match table.get("start") {
-        None => Ok(Start::Rest),
-        Some(start) => {
-            let start = start.table()?;
-            start.only(&["tip_force"])?;
-            Ok(Start::Deflected {
-                tip_force_n: start.need("tip_force")?.quantity(Dimension::FORCE)?,
-            })
-        }
-    }
+    let Some(start) = table.optional("start", Value::table)? else { return Ok(Start::Rest) };
+    start.only("tip_force")?;
+    Ok(Start::Deflected { tip_force_n: start.need("tip_force")?.quantity(Dimension::FORCE)? })
 }
 
 fn record(table: &Table<'_>) -> Result<f64, Error> {
@@ -217,21 +212,21 @@ fn record(table: &Table<'_>) -> Result<f64, Error> {
 
 /// The logged time: `record` or whole `periods`, whichever is longer.
 fn record_of(table: &Table<'_>, reference: &Reference) -> Result<f64, Error> {
-    let least = table.get("record").map(|v| v.positive(Dimension::TIME)).transpose()?;
+    let least = table.positive("record", Dimension::TIME)?;
     let Some(periods) = table.get("periods") else {
         return match (least, reference) {
             (Some(least), _) => Ok(least),
             // A table has a length of its own.
             (None, Reference::Table(rows)) if rows.end_s() > 0.0 => Ok(rows.end_s()),
             (None, reference) if reference.period_s().is_some() => {
-                let keys = vec!["periods", "record"];
-                Err(ConfigError::NoneOf { place: table.place(), keys }.into())
+                Err(table.none_of(&["periods", "record"]).into())
             }
             (None, _) => record(table),
         };
     };
     let Some(period) = reference.period_s() else {
-        return Err(ConfigError::NoPeriod { place: periods.place() }.into());
+        let problem = " is allowed only for periodic motions";
+        return Err(periods.error(problem, "give the time: record = \"20 s\"").into());
     };
     let time = periods.positive(Dimension::NUMBER)? * period;
     Ok(least.map_or(time, |least| time.max(least)))

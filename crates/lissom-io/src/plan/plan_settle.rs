@@ -18,13 +18,12 @@ pub(super) fn settle(value: &Value<'_>) -> Result<Settle, ConfigError> {
 }
 
 fn detected(table: &Table<'_>) -> Result<Settle, ConfigError> {
-    table.only(&["tolerance", "longest"])?;
+    table.only("tolerance longest")?;
     let Settle::Detected { tolerance, longest_s } = Settle::DETECTED else {
         return Ok(Settle::DETECTED);
     };
-    let given = |key, dimension| table.get(key).map(|v| v.positive(dimension)).transpose();
     Ok(Settle::Detected {
-        tolerance: given("tolerance", Dimension::NUMBER)?.unwrap_or(tolerance),
-        longest_s: given("longest", Dimension::TIME)?.unwrap_or(longest_s),
+        tolerance: table.positive("tolerance", Dimension::NUMBER)?.unwrap_or(tolerance),
+        longest_s: table.positive("longest", Dimension::TIME)?.unwrap_or(longest_s),
     })
 }

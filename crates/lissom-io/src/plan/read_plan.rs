@@ -5,18 +5,17 @@ use std::path::Path;
 
 use lissom_core::rig::Settle;
 
-use super::plan_error::PlanError;
 use super::plan_experiment::{Planned, RUNS_MOST, read};
 use super::plan_file::{PlanFile, PlanRun};
 use super::plan_settle::settle;
-use crate::config::{ConfigError, Source, Table};
+use crate::config::{ConfigError, Source, Value};
 use crate::io_error::Error;
 
 impl PlanFile {
     /// Reads a `plan.toml` and its tables.
     ///
     /// # Errors
-    /// [`Error::Config`] or [`Error::Plan`] for the file, [`Error::Log`] for a table.
+    /// [`Error::Config`] for the file, [`Error::Log`] for a table.
     pub fn read(path: &Path) -> Result<Self, Error> {
         Self::from_source(&Source::read(path)?)
     }
@@ -39,9 +38,9 @@ impl PlanFile {
     fn from_source(source: &Source) -> Result<Self, Error> {
         let document = source.parse()?;
         let root = source.root(&document);
-        root.only(&["title", "seed", "settle", "runs"])?;
-        let title = root.get("title").map(|v| v.text()).transpose()?.unwrap_or("");
-        let seed = root.get("seed").map(|v| v.whole(0, i64::MAX)).transpose()?;
+        root.only("title seed settle runs")?;
+        let title = root.optional("title", Value::text)?.unwrap_or("");
+        let seed = root.optional("seed", |v| v.whole(0, i64::MAX))?;
         let seed = seed.map_or(1, i64::unsigned_abs);
         let common = root.get("settle").map_or(Ok(Settle::DETECTED), |v| settle(&v))?;
         let list = root.need("runs")?;
@@ -52,14 +51,13 @@ impl PlanFile {
         let mut made: Vec<(Option<String>, Planned)> = Vec::new();
         for entry in &entries {
             let table = entry.table()?;
-            let name = table.get("name").map(|v| v.text().map(str::to_owned)).transpose()?;
-            let repeat = table.get("repeat").map(|v| v.whole(1, 10_000)).transpose()?.unwrap_or(1);
+            let name = table.optional("name", |v| v.text().map(str::to_owned))?;
+            let repeat = table.optional("repeat", |v| v.whole(1, 10_000))?.unwrap_or(1);
             let planned = read(&table, common, seed, source.folder())?;
             let repeat = usize::try_from(repeat).unwrap_or(usize::MAX);
             let found = made.len() + planned.len().saturating_mul(repeat);
             if found > RUNS_MOST {
-                let (place, most) = (entry.place(), RUNS_MOST);
-                return Err(ConfigError::TooMany { place, found, most }.into());
+                return Err(entry.too_many(found, RUNS_MOST).into());
             }
             for _ in 0..repeat {
                 made.extend(planned.iter().map(|p| (name.clone(), p.clone())));
@@ -80,25 +78,28 @@ impl PlanFile {
                 seed: seed.wrapping_mul(0x9e37_79b9_7f4a_7c15).wrapping_add(index as u64),
             })
             .collect();
-        names(&root, &runs)?;
+        names(&list, &runs)?;
         Ok(Self { title: title.to_owned(), seed, runs })
     }
 }
 
 /// Checks that the names of runs are file names, and that each occurs once.
-fn names(root: &Table<'_>, runs: &[PlanRun]) -> Result<(), PlanError> {
-    let place = || root.get("runs").map_or_else(|| root.place(), |v| v.place());
+fn names(list: &Value<'_>, runs: &[PlanRun]) -> Result<(), ConfigError> {
     let mut seen = HashSet::new();
     for run in runs {
-        let name = run.name.clone();
+        let name = &run.name;
         let fits = |c: char| c.is_alphanumeric() || matches!(c, '-' | '_' | '.');
         let begins = name.chars().next().is_some_and(char::is_alphanumeric);
         if !begins || !name.chars().all(fits) || name.len() > 100 {
-            return Err(PlanError::Name { place: place(), name });
+            return Err(list.error(
+                format!(": `{name}` is not a valid name for a log"),
+                "use letters, digits, `-`, `_` and `.`, and begin with a letter or digit",
+            ));
         }
         // Some file systems do not distinguish upper and lower case.
         if !seen.insert(name.to_lowercase()) {
-            return Err(PlanError::SameName { place: place(), name });
+            let problem = format!(": two runs have the name `{name}`");
+            return Err(list.error(problem, "give each run its own `name`, or none"));
         }
     }
     Ok(())

@@ -4,7 +4,7 @@ use std::path::Path;
 
 use lissom::rig::{Logged, Rig};
 use lissom_io::write::{self, CampaignPlan, PlannedRun};
-use lissom_io::{PlanFile, PlanRun, RigFile, RigRunEntry};
+use lissom_io::{ConfigError, PlanFile, PlanRun, RigFile, RigRunEntry};
 use rayon::prelude::*;
 
 use super::campaign_folder::Folder;
@@ -26,10 +26,8 @@ pub(crate) struct Inputs {
 impl Inputs {
     pub(crate) fn read(arm: &Path, plan: &Path) -> Result<Self, Failure> {
         let text = |path: &Path| {
-            lissom_io::read_text(path).map_err(|source| {
-                let file = path.display().to_string();
-                lissom_io::Error::from(lissom_io::ConfigError::Read { file, source })
-            })
+            lissom_io::read_text(path)
+                .map_err(|source| lissom_io::Error::from(ConfigError::unread(path, source)))
         };
         Ok(Self { arm: text(arm)?, plan: text(plan)? })
     }

@@ -7,7 +7,8 @@ use std::path::Path;
 use proptest::prelude::*;
 
 use super::arm_fixture::{ARM, fails, near, read};
-use crate::arm_file::{ArmFile, ControllerSpec, DriveSpec, RigSpec, SensorSpec, SensorSteps};
+use crate::arm_file::{ArmFile, RigSpec};
+use lissom_core::rig::{Amplifier, Instruments, Pd, Quantiser, Sensor};
 
 #[test]
 fn reads_an_arm() {
@@ -23,36 +24,19 @@ fn reads_an_arm() {
     near(span.flexural_rigidity_n_m2, modulus * PI * (0.032 * inch).powi(4) / 64.0);
     assert_eq!(span.damping_n_s_per_m, 0.0);
     let drive = arm.drive.unwrap();
-    let DriveSpec { coulomb_forward_nm, coulomb_backward_nm, .. } = drive;
-    near(coulomb_forward_nm, 0.132 * 2.184 * lbf_in);
-    near(coulomb_backward_nm, 0.132 * 2.184 * lbf_in);
-    near(drive.inertia_kg_m2, 0.005_529 * lbf_in);
-    near(drive.viscous_nm_s_per_rad, 0.012_16 * lbf_in);
-    assert_eq!(
-        arm.rig,
-        Some(RigSpec {
-            sample_time_s: 0.003,
-            control_every: 1,
-            log_every: 1,
-            current_limit_a: Some(4.12),
-            dead_band_a: None,
-            current_converter: None,
-            delay_s: None,
-            motor_sensor: Some(SensorSpec {
-                steps: Some(SensorSteps::Bits { bits: 12, range_rad: TAU }),
-                noise_rad: None
-            }),
-            tip_sensors: None,
-            controller: Some(ControllerSpec {
-                proportional_a_per_rad: 9.0,
-                derivative_a_s_per_rad: 0.2,
-                integral_a_per_rad_s: None,
-                filter_s: None,
-                integers: None,
-            }),
-            masses: None,
-        })
-    );
+    near(drive.coulomb.forward(), 0.132 * 2.184 * lbf_in);
+    near(drive.coulomb.backward(), 0.132 * 2.184 * lbf_in);
+    near(drive.motor.inertia_kg_m2(), 0.005_529 * lbf_in);
+    near(drive.motor.viscous_nm_s_per_rad(), 0.012_16 * lbf_in);
+    let motor = Sensor { noise: None, quantiser: Some(Quantiser::new(12, TAU).unwrap()) };
+    let instruments = Instruments {
+        motor,
+        tips: vec![motor],
+        amplifier: Amplifier::ideal().with_limit(4.12).unwrap(),
+        ..Instruments::ideal(0.003).unwrap()
+    };
+    let controller = Some(Pd::new(9.0, 0.2).unwrap().into());
+    assert_eq!(arm.rig, Some(RigSpec { instruments, controller, masses: None }));
 }
 
 #[test]
@@ -60,7 +44,7 @@ fn every_table_may_be_absent() {
     assert_eq!(read("").unwrap(), ArmFile::default());
     let arm = read("[drive]\ninertia = 1\ntorque_constant = 2.0\n").unwrap();
     let drive = arm.drive.unwrap();
-    assert_eq!((drive.viscous_nm_s_per_rad, drive.coulomb_forward_nm), (0.0, 0.0));
+    assert_eq!((drive.motor.viscous_nm_s_per_rad(), drive.coulomb.forward()), (0.0, 0.0));
 }
 
 #[test]
@@ -102,8 +86,8 @@ fn coulomb_may_be_torque_and_differ_by_direction() {
     let text = "[drive]\ninertia = 1\ntorque_constant = 2\n\
                 coulomb = { forward = \"0.5 A\", backward = \"300 mN*m\" }\n";
     let drive = read(text).unwrap().drive.unwrap();
-    near(drive.coulomb_forward_nm, 1.0);
-    near(drive.coulomb_backward_nm, 0.3);
+    near(drive.coulomb.forward(), 1.0);
+    near(drive.coulomb.backward(), 0.3);
 }
 
 #[test]

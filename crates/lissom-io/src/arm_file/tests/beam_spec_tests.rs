@@ -7,7 +7,7 @@ use std::path::Path;
 use lissom_core::beam::{Damping, Payload};
 
 use super::arm_fixture::{fails, near, read};
-use crate::arm_file::{ArmError, BeamKind, BeamSpec};
+use crate::arm_file::{BeamKind, BeamSpec};
 
 fn beam(keys: &str) -> BeamSpec {
     read(&format!("[beam]\n{keys}\n")).unwrap().beam.unwrap()
@@ -120,7 +120,6 @@ fn a_rig_needs_point_masses() {
                 [drive]\ninertia = 1\ntorque_constant = 1\n";
     let file = read(text).unwrap();
     let error = file.arm(Path::new("arm.toml")).unwrap_err();
-    assert!(matches!(error, ArmError::Distributed { .. }));
     assert_eq!(
         error.to_string(),
         "arm.toml: the beam has mass along its length; here it must have point masses"
@@ -150,7 +149,7 @@ fn a_heavy_beam_is_built() {
     );
     assert!(error.hint().unwrap().starts_with("write damping = { mass_proportional"));
     let points = read(&lumped("")).unwrap().distributed_beam(path).unwrap_err();
-    assert!(matches!(points, ArmError::Lumped { .. }), "{points}");
+    assert!(points.problem.contains("the beam has point masses"), "{points}");
 }
 
 #[test]

@@ -3,7 +3,7 @@
 use std::path::Path;
 
 use super::arm_fixture::{fails, read};
-use crate::arm_file::{ArmError, BeamKind};
+use crate::arm_file::BeamKind;
 use crate::write::{WrittenArm, arm_text};
 use lissom_core::beam::{Beam, BeamError};
 use lissom_core::drive::{Coulomb, Motor};
@@ -27,8 +27,9 @@ fn modes_make_an_arm() {
     let modes = made.known_modes();
     assert_eq!((modes[0].omega_rad_s, modes[1].damping_ratio), (8.0 * std::f64::consts::PI, 0.01));
     assert_eq!((modes[1].coupling_nm_per_rad, modes[0].gains[1]), (0.5, 1.2));
-    assert!(matches!(file.lumped_beam(path), Err(ArmError::Modal { .. })));
-    assert!(matches!(file.distributed_beam(path), Err(ArmError::Modal { .. })));
+    let by_modes = "arm.toml: the beam is given by its modes; here it must have spans";
+    assert_eq!(file.lumped_beam(path).unwrap_err().to_string(), by_modes);
+    assert_eq!(file.distributed_beam(path).unwrap_err().to_string(), by_modes);
 }
 
 #[test]
@@ -42,7 +43,7 @@ fn a_written_arm_is_read_as_it_was() {
         arm_text(&WrittenArm { motor, coulomb: Some(coulomb), beam: &beam, points: &points });
     let file = read(&text).unwrap();
     assert_eq!(file.modal_beam(path).unwrap(), beam);
-    assert_eq!(file.motor(path).unwrap(), Some((motor, coulomb)));
+    assert_eq!(file.motor(path).unwrap(), (motor, coulomb));
 }
 
 #[test]
@@ -64,7 +65,7 @@ fn wrong_modes_are_named() {
     );
     let strained = read(&beam("{ frequency = 1, coupling = 1, gains = [0.9] }")).unwrap();
     let error = strained.arm(Path::new("arm.toml")).unwrap_err();
-    assert!(matches!(&error, ArmError::Beam { source: BeamError::GainsSum { point: 1, .. }, .. }));
+    assert!(error.problem.contains("point 1"), "{error}");
     assert!(error.hint().unwrap().contains("highest mode"));
 }
 
@@ -73,5 +74,5 @@ fn nothing_hangs_at_its_tip() {
     let rig = "[rig]\nsample_time = 0.001\nmotor_sensor = { bits = 12, range = 6.3 }\n";
     let text = format!("{}{rig}[tip]\nviscous = 0.003\n", beam(TWO));
     let error = read(&text).unwrap().rig(Path::new("arm.toml")).unwrap_err();
-    assert!(matches!(error, ArmError::Beam { source: BeamError::NoTip, .. }), "{error}");
+    assert_eq!(error.to_string(), format!("arm.toml: {}", BeamError::NoTip));
 }

@@ -1,10 +1,12 @@
 //! Rigs: instruments, controllers, friction laws, the world at the tip.
 #![expect(clippy::float_cmp, reason = "these numbers are exact")]
 
-use lissom_core::rig::{ControlLaw, JointFriction, Word};
+use std::f64::consts::TAU;
+
+use lissom_core::rig::{ControlLaw, IntegerPd, JointFriction, Pd, Quantiser, Signal, Word};
 
 use super::arm_fixture::{ARM, read};
-use crate::arm_file::{ArmFile, SignalSpec};
+use crate::arm_file::ArmFile;
 
 #[track_caller]
 fn refused(text: &str, message: &str) {
@@ -51,12 +53,13 @@ fn integers_need_converters() {
     let both = "motor_sensor = { bits = 12, range = \"360 deg\" }\n\
                 current_converter = { bits = 12, range = \"10 A\" }";
     let made = rig(&with_rig(&format!("{integers}{both}")));
-    assert!(matches!(made.controller, ControlLaw::IntegerPd(_)));
-    let text = with_rig(integers);
-    let spec = read(&text).unwrap().rig.unwrap().controller.unwrap().integers.unwrap();
-    assert_eq!((spec.word, spec.binary_point), (Word::Long, 8));
-    let error = read(&text).unwrap().rig("arm.toml".as_ref()).unwrap_err();
-    assert!(error.to_string().contains("`motor_sensor` with steps"), "{error}");
+    let pd = Pd::new(8.0, 0.0).unwrap();
+    let steps = [TAU, 10.0].map(|range| Quantiser::new(12, range).unwrap());
+    let law = IntegerPd::new(&pd, 0.003, steps[0], steps[1], Word::Long, 8).unwrap();
+    assert_eq!(made.controller, law.into());
+    let error = read(&with_rig(integers)).unwrap_err().to_string();
+    assert!(error.starts_with("arm.toml, line 13: `rig.controller.integers`: "), "{error}");
+    assert!(error.contains("`motor_sensor` with steps"), "{error}");
 }
 
 #[test]
@@ -95,7 +98,7 @@ fn reads_friction_laws_and_the_world_at_the_tip() {
         made.scene.later.iter().map(|(_, arm)| arm.beam().payload().mass_kg).collect();
     assert_eq!(masses, [0.05, 0.0]);
     let spec = read(&text).unwrap().tip.unwrap();
-    assert!(matches!(spec.torque, Some(SignalSpec::Table { lines: true, .. })));
+    assert_eq!(spec.world.torque, Signal::lines(&[(0.0, 0.0), (1.0, 2e-3)]).unwrap());
 }
 
 #[test]
