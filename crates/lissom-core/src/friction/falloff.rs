@@ -2,6 +2,9 @@
 
 /// How friction passes from its value at rest to its value at high speed.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(rename_all = "snake_case"))]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub enum Falloff {
     /// `e^{−|v|/v_s}`.
     Exponential,

@@ -6,6 +6,9 @@ use crate::identify::gravity_estimate::Gravity;
 
 /// A method that estimates the parameters of the drive.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(rename_all = "snake_case"))]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[non_exhaustive]
 pub enum Method {
     /// Output-error method: simulates the arm under the logged command and changes its parameters until the simulated

@@ -3,12 +3,11 @@
 use std::path::Path;
 
 use lissom_core::identify::FoundArm;
-use lissom_core::record::Channels;
+use lissom_core::record::{Axis, Channels, TipQuantity};
 use serde::Deserialize;
 use serde_json::Value;
 
 use super::arm_entry::ArmEntry;
-use super::channel_names::{AxisName, TipQuantityName};
 use super::result_error::ResultError;
 use super::unit_names::UnitNames;
 use crate::io_error::Error;
@@ -20,7 +19,7 @@ const SAME: f64 = 1e-5;
 /// The part of a [`ResultFile`](super::ResultFile) that a prediction needs.
 #[derive(Debug, Deserialize)]
 struct PredictingPart {
-    axis: AxisName,
+    axis: Axis,
     torque_per_command: Option<f64>,
     arm: Option<ArmEntry>,
 }
@@ -69,7 +68,7 @@ fn same_drive(
     channels: &Channels,
     file: impl Fn() -> String,
 ) -> Result<(), ResultError> {
-    let axis = AxisName::of(channels.axis);
+    let axis = channels.axis;
     let constant = channels.command.torque_per_command;
     let said = |constant: Option<f64>| match constant {
         Some(k) => format!("with a torque constant of {k} in SI units"),
@@ -85,8 +84,8 @@ fn same_drive(
     }
     Err(ResultError::OtherDrive {
         file: file(),
-        of_result: format!("a {} axis {}", part.axis.text(), said(part.torque_per_command)),
-        of_log: format!("has a {} axis {}", axis.text(), said(constant)),
+        of_result: format!("a {} axis {}", part.axis.name(), said(part.torque_per_command)),
+        of_log: format!("has a {} axis {}", axis.name(), said(constant)),
     })
 }
 
@@ -96,14 +95,13 @@ fn same_tips(
     file: impl Fn() -> String,
 ) -> Result<(), ResultError> {
     let of_result: Vec<_> = arm.tips.iter().map(|tip| tip.quantity).collect();
-    let of_log: Vec<_> =
-        channels.tips.iter().map(|tip| TipQuantityName::of(tip.quantity)).collect();
+    let of_log: Vec<_> = channels.tips.iter().map(|tip| tip.quantity).collect();
     if of_result == of_log {
         return Ok(());
     }
-    let told = |list: &[TipQuantityName]| match list {
+    let told = |list: &[TipQuantity]| match list {
         [] => "none".to_owned(),
-        list => list.iter().map(|quantity| quantity.text()).collect::<Vec<_>>().join(", "),
+        list => list.iter().map(|quantity| quantity.name()).collect::<Vec<_>>().join(", "),
     };
     Err(ResultError::OtherTips { file: file(), of_result: told(&of_result), of_log: told(&of_log) })
 }

@@ -2,12 +2,14 @@
 
 use std::path::Path;
 
+use lissom_core::identify::{Method, Severity};
+use lissom_core::record::Axis;
 use serde::Deserialize;
 use serde_json::Value;
 
-use super::channel_names::{AxisName, CommandUnitName, MethodName};
+use super::channel_names::CommandUnitName;
 use super::estimate_entry::EstimateEntry;
-use super::finding_entry::{FindingEntry, SeverityName};
+use super::finding_entry::FindingEntry;
 use super::finding_keys::{COULOMB, COUPLING, GRAVITY, INERTIA, MODES, OFFSET, VISCOUS};
 use super::friction_entry::FrictionEntry;
 use super::friction_term_entries::LawTermName;
@@ -24,7 +26,7 @@ pub struct ParameterList {
     /// Its units.
     pub names: UnitNames,
     /// The method that gave friction, inertia and coupling.
-    pub from: Option<MethodName>,
+    pub from: Option<Method>,
     /// Torque constant used, N·m or N per unit of command; `None` if it is unknown.
     pub torque_per_command: Option<f64>,
     /// Terms of the friction law in addition to Coulomb friction and one viscous coefficient.
@@ -54,11 +56,11 @@ pub struct ListedParameter {
 /// read as long as this part is the same.
 #[derive(Debug, Deserialize)]
 struct ParameterPart {
-    axis: AxisName,
+    axis: Axis,
     torque_per_command: Option<f64>,
     command_unit: CommandUnitName,
     #[serde(default)]
-    from: Option<MethodName>,
+    from: Option<Method>,
     friction: FrictionEntry,
     drive: DriveEntry,
     #[serde(default)]
@@ -179,9 +181,9 @@ impl<'a> Listing<'a> {
     ) {
         // A refusal of something else may affect what is given.
         let is_warning = |f: &&FindingEntry| match f.severity {
-            SeverityName::Warning => true,
-            SeverityName::Refusal => estimate.is_some(),
-            SeverityName::Info => false,
+            Severity::Warning => true,
+            Severity::Refusal => estimate.is_some(),
+            Severity::Info => false,
         };
         let affects = |f: &&FindingEntry| f.affects.iter().any(|k| affected.contains(&k.as_str()));
         let mut warnings: Vec<String> = Vec::new();

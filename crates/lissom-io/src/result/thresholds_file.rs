@@ -26,22 +26,9 @@ pub struct ThresholdEntry {
     /// Unit of the values; "1" for shares and ratios.
     pub unit: String,
     /// Origin of the value.
-    pub basis: BasisName,
+    pub basis: Basis,
     /// Meaning of the threshold, and the reason for its value.
     pub reason: String,
-}
-
-/// Origin of a threshold's value.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
-#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
-#[serde(rename_all = "snake_case")]
-pub enum BasisName {
-    /// It follows from theory or from another number.
-    Derived,
-    /// It was chosen from measured logs or from simulated campaigns.
-    Measured,
-    /// A usual level or a round number.
-    Convention,
 }
 
 impl ThresholdsFile {
@@ -65,11 +52,7 @@ impl ThresholdEntry {
                 ThresholdValue::Numbers(values) => values.to_vec(),
             },
             unit: t.unit.to_owned(),
-            basis: match t.basis {
-                Basis::Derived => BasisName::Derived,
-                Basis::Measured => BasisName::Measured,
-                Basis::Convention => BasisName::Convention,
-            },
+            basis: t.basis,
             reason: t.reason.to_owned(),
         }
     }

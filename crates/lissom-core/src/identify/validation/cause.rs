@@ -6,6 +6,9 @@ use crate::record::Run;
 
 /// What may be wrong or missing.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(rename_all = "kebab-case"))]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub enum CauseKind {
     /// The command acts later than in the result.
     Delay,
@@ -42,8 +45,11 @@ const KINDS: [CauseKind; 9] = [
 
 /// One term beside the residual.
 #[derive(Debug, Clone, Copy, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct Cause {
     /// Which.
+    #[cfg_attr(feature = "serde", serde(rename = "term"))]
     pub kind: CauseKind,
     /// Its coefficient: delay \[s\], inertia \[kg·m²\], viscous friction \[N·m·s/rad\], torque \[N·m\],
     /// torque per angle \[N·m/rad\], to be added to the estimate; of coupling the share of it to be added.
