@@ -8,7 +8,7 @@ use super::compared_file::{
     ComparedFile, ComparedParameterEntry, ComparedResultEntry, ParameterDifferenceEntry,
 };
 use super::estimate_entry::EstimateEntry;
-use super::read_result::{ListedParameter, PHASE_KEY, ParameterList};
+use super::parameter_list::{ListedParameter, PHASE_KEY, ParameterList};
 
 /// Number of standard errors above which a difference is called clear. A convention: chance alone gives more than three
 /// for 0.3 % of the parameters that have not changed.

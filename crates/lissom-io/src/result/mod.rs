@@ -22,9 +22,9 @@ mod gravity_entry;
 mod linear_model_entries;
 mod method_entries;
 mod output_error_entry;
+mod parameter_list;
 mod payload_file;
 mod read_arm;
-mod read_result;
 pub(crate) mod result_error;
 mod result_file;
 mod separability_entry;
@@ -65,11 +65,11 @@ pub use method_entries::{
     RegressionEntry, SinePairEntry, ThirdHarmonicEntry, WindowEntry,
 };
 pub use output_error_entry::{ExtensionEntry, OutputErrorEntry, StageEntry};
+pub use parameter_list::{ListedParameter, PHASE_KEY, ParameterList};
 pub use payload_file::{
     PayloadEntry, PayloadFile, PayloadPrediction, PredictedPayload, ResponseEntry,
 };
 pub use read_arm::{arm_of_text, read_arm};
-pub use read_result::{ListedParameter, PHASE_KEY, ParameterList, read_result};
 pub use result_error::ResultError;
 pub use result_file::{
     BeamEntry, DriveEntry, HarmonicsEntry, ResultFile, RunEntry, RunKindName, SinusoidEntry,

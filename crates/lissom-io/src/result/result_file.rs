@@ -146,10 +146,8 @@ pub struct SinusoidEntry {
     /// Amplitude of the motor's motion, that of its first harmonic.
     pub amplitude: NumberEntry,
     /// Harmonics of the command.
-    #[serde(default)]
     pub command_harmonics: HarmonicsEntry,
     /// Harmonics of the motor's motion.
-    #[serde(default)]
     pub motor_harmonics: HarmonicsEntry,
 }
 
@@ -183,9 +181,18 @@ impl ResultFile {
         let file = || file.to_owned();
         let root: Value = serde_json::from_str(text.trim_start_matches('\u{feff}'))
             .map_err(|source| ResultError::Json { file: file(), source })?;
-        for key in
-            ["lissom", "axis", "command_unit", "friction", "drive", "beam", "runs", "findings"]
-        {
+        for key in [
+            "lissom",
+            "axis",
+            "torque_per_command",
+            "command_unit",
+            "friction",
+            "drive",
+            "beam",
+            "arm",
+            "runs",
+            "findings",
+        ] {
             if root.get(key).is_none() {
                 return Err(ResultError::NoResult { file: file(), key });
             }

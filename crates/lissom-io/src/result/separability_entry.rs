@@ -46,11 +46,6 @@ pub struct CorrelationEntry {
     pub matrix: Vec<Vec<Option<f64>>>,
 }
 
-/// Results of earlier versions do not say it.
-fn yes() -> bool {
-    true
-}
-
 /// The certainty of a parameter.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
@@ -58,7 +53,6 @@ pub struct ParameterCertaintyEntry {
     /// Name of the parameter.
     pub parameter: String,
     /// Whether the estimate is given; false if a finding refuses it.
-    #[serde(default = "yes")]
     pub given: bool,
     /// Its relative standard error; null if the logs do not separate it from other parameters.
     pub relative_std: Option<f64>,
