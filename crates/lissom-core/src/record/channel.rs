@@ -1,7 +1,10 @@
 //! The channels of a campaign: what each one is, and what is known of it.
 
+use strum::IntoStaticStr;
+
 /// Kind of axis; it decides the units of all parameters.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, IntoStaticStr)]
+#[strum(serialize_all = "snake_case")]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(feature = "serde", serde(rename_all = "snake_case"))]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
@@ -15,10 +18,7 @@ pub enum Axis {
 impl Axis {
     /// Name in texts and files.
     pub fn name(self) -> &'static str {
-        match self {
-            Self::Rotary => "rotary",
-            Self::Linear => "linear",
-        }
+        self.into()
     }
 }
 
@@ -86,7 +86,8 @@ impl Command {
 }
 
 /// Quantity that a tip sensor measures.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, IntoStaticStr)]
+#[strum(serialize_all = "snake_case")]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(feature = "serde", serde(rename_all = "snake_case"))]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
@@ -102,11 +103,7 @@ pub enum TipQuantity {
 impl TipQuantity {
     /// Name in texts and files.
     pub fn name(self) -> &'static str {
-        match self {
-            Self::Angle => "angle",
-            Self::Deflection => "deflection",
-            Self::Acceleration => "acceleration",
-        }
+        self.into()
     }
 }
 

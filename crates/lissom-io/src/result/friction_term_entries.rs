@@ -7,6 +7,7 @@ use lissom_core::identify::{
     LawEstimates, LawTerm, MissingKind, ModelTerm, NearRestEstimate, RippleEstimate,
 };
 use serde::{Deserialize, Serialize};
+use strum::IntoStaticStr;
 
 use super::channel_names::DirectionName;
 use super::estimate_entry::{EstimateEntry, NumberEntry};
@@ -78,9 +79,10 @@ pub struct LawTermEntry {
 }
 
 /// A term of friction.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, IntoStaticStr)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(rename_all = "kebab-case")]
+#[strum(serialize_all = "kebab-case")]
 pub enum LawTermName {
     /// Viscous friction by direction: s*D*v, s the direction.
     ViscousByDirection,
@@ -199,23 +201,7 @@ impl LawTermEntry {
 impl LawTermName {
     /// Its name as in JSON.
     pub fn name(self) -> &'static str {
-        match self {
-            Self::ViscousByDirection => "viscous-by-direction",
-            Self::NearRest => "near-rest",
-            Self::TorqueRipple => "torque-ripple",
-            Self::Root => "root",
-            Self::WithLoad => "with-load",
-            Self::Ripple => "ripple",
-            Self::CommandLag => "command-lag",
-            Self::Position => "position",
-            Self::Gravity => "gravity",
-            Self::BeamDamping => "beam-damping",
-            Self::CommandBySign => "command-by-sign",
-            Self::WithTorque => "with-torque",
-            Self::OverTravel => "over-travel",
-            Self::CoulombDrift => "coulomb-drift",
-            Self::ViscousDrift => "viscous-drift",
-        }
+        self.into()
     }
 
     fn of_missing(kind: MissingKind) -> Self {

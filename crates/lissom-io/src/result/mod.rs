@@ -78,7 +78,7 @@ pub use separability_entry::{
     CorrelationEntry, DirectionPartEntry, MotionKindName, ParameterCertaintyEntry,
     PrincipalDirectionEntry, RunEffectEntry, RunShareEntry, RunToAddEntry, SeparabilityEntry,
 };
-pub use thresholds_file::{ThresholdEntry, ThresholdsFile};
+pub use thresholds_file::ThresholdsFile;
 pub use unit_names::UnitNames;
 pub use validation_file::{
     ChannelFitEntry, ChannelResidualEntry, ChannelUnitName, HorizonEntry, MotionEntry,

@@ -1,11 +1,13 @@
 //! What a residual of torque looks like: how much of it each term would take away by itself.
 #![expect(clippy::inline_always, reason = "compiled for wide registers as one")]
+use strum::IntoStaticStr;
 
 use crate::identify::validation::kernel::Kernel;
 use crate::record::Run;
 
 /// What may be wrong or missing.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, IntoStaticStr)]
+#[strum(serialize_all = "kebab-case")]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(feature = "serde", serde(rename_all = "kebab-case"))]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
@@ -74,17 +76,7 @@ impl Cause {
 impl CauseKind {
     /// Its stable name.
     pub fn name(self) -> &'static str {
-        match self {
-            Self::Delay => "delay",
-            Self::Inertia => "inertia",
-            Self::Viscous => "viscous",
-            Self::ViscousByDirection => "viscous-by-direction",
-            Self::Coulomb => "coulomb",
-            Self::Offset => "offset",
-            Self::Position => "position",
-            Self::NearRest => "near-rest",
-            Self::Coupling => "coupling",
-        }
+        self.into()
     }
 
     /// In words.
