@@ -6,8 +6,14 @@
 //! small numbers that guard against rounding. The root finders, event searches and series of `beam`, `lti`, `rig` and
 //! `replay` have only numbers of these kinds.
 
+use strum::IntoStaticStr;
+
 /// Origin of a threshold's value.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, IntoStaticStr)]
+#[strum(serialize_all = "snake_case")]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(rename_all = "snake_case"))]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub enum Basis {
     /// Follows from theory or from another number; the reason says how.
     Derived,
@@ -19,17 +25,16 @@ pub enum Basis {
 
 impl Basis {
     /// Name in tables and files: `"derived"`, `"measured"` or `"convention"`.
-    pub const fn name(self) -> &'static str {
-        match self {
-            Self::Derived => "derived",
-            Self::Measured => "measured",
-            Self::Convention => "convention",
-        }
+    pub fn name(self) -> &'static str {
+        self.into()
     }
 }
 
 /// The value of a threshold.
 #[derive(Debug, Clone, Copy, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
+#[cfg_attr(feature = "serde", serde(untagged))]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub enum ThresholdValue {
     /// A real number.
     Number(f64),
@@ -41,6 +46,8 @@ pub enum ThresholdValue {
 
 /// A number that decides an outcome that the user sees.
 #[derive(Debug, Clone, Copy, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[non_exhaustive]
 pub struct Threshold {
     /// Method or step to which the threshold belongs.

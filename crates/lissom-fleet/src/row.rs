@@ -3,7 +3,7 @@
 use std::path::Path;
 
 use lissom::Found;
-use lissom_io::result::SeverityName;
+use lissom::identify::Severity;
 use lissom_io::write::json_text;
 use lissom_io::{EffortName, ParameterList, ResultFile};
 use serde::{Deserialize, Serialize};
@@ -72,7 +72,7 @@ impl RowResult {
             key: format!("{} [{}]", parameter.key, parameter.unit),
             value_std: parameter.estimate.map(|e| (e.value, e.std)),
         });
-        let codes = |severity: SeverityName| {
+        let codes = |severity: Severity| {
             let mut codes: Vec<String> = Vec::new();
             for finding in file.findings.iter().filter(|f| f.severity == severity) {
                 if !codes.contains(&finding.code) {
@@ -84,9 +84,9 @@ impl RowResult {
         RowResult {
             effort,
             estimates: estimates.collect(),
-            refusals: codes(SeverityName::Refusal),
-            warnings: codes(SeverityName::Warning),
-            infos: codes(SeverityName::Info),
+            refusals: codes(Severity::Refusal),
+            warnings: codes(Severity::Warning),
+            infos: codes(Severity::Info),
             json: keep.then(|| json_text(Path::new("result"), &file).ok()).flatten(),
         }
     }

@@ -5,7 +5,7 @@
 //! - [`ArmFile::read`] reads an `arm.toml`: see [`arm_file`]; [`ModelFile`] is the model computed from it.
 //! - [`PlanFile::read`] reads a `plan.toml`, the experiments of a virtual campaign: see [`plan`].
 //! - [`read_responses`] reads tables of frequency responses: see [`responses`].
-//! - [`ResultFile`] is the result of an identification. [`read_arm`] reads its arm, [`read_result`] its parameters.
+//! - [`ResultFile`] is the result of an identification. [`read_arm`] reads its arm; [`ParameterList`] lists its parameters.
 //!   [`ComparedFile`] has the parameters of several results, [`ValidationFile`] how well a result predicts another log,
 //!   [`ThresholdsFile`] the list of thresholds: see [`result`].
 //! - [`PlannedFile`] is a plan as JSON, [`RigFile`] describes a virtual campaign, [`DemoFile`] and
@@ -69,7 +69,7 @@ pub use responses::{
 pub use result::{
     ComparedFile, EquivalentFile, ListedParameter, ParameterList, PayloadFile, PayloadPrediction,
     PredictedPayload, ResultError, ResultFile, ThresholdsFile, UnitNames, ValidationFile,
-    channel_name_unit, read_arm, read_result,
+    channel_name_unit, read_arm,
 };
 pub use rig::{RigFile, RigRunEntry};
 #[cfg(feature = "schema")]

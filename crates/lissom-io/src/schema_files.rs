@@ -59,7 +59,8 @@ impl Transform for ClosedTables {
         schema.remove("format");
         for key in ["description", "title"] {
             if let Some(Value::String(text)) = schema.get_mut(key) {
-                *text = text.replace('\n', " ");
+                // Brackets of units are escaped for rustdoc.
+                *text = text.replace('\n', " ").replace("\\[", "[").replace("\\]", "]");
             }
         }
     }

@@ -143,18 +143,14 @@ fn thresholds_page() -> String {
             );
         }
         let (name, unit, basis) = (text("name"), text("unit"), text("basis"));
-        let _ = writeln!(
-            page,
-            "| `{name}` | {} | {unit} | {basis} | {} |",
-            one["values"]
-                .as_array()
-                .into_iter()
-                .flatten()
-                .map(Value::to_string)
-                .collect::<Vec<_>>()
-                .join(", "),
-            cell(&text("reason"))
-        );
+        let value = match &one["value"] {
+            Value::Array(values) => {
+                values.iter().map(Value::to_string).collect::<Vec<_>>().join(", ")
+            }
+            value => value.to_string(),
+        };
+        let reason = cell(&text("reason"));
+        let _ = writeln!(page, "| `{name}` | {value} | {unit} | {basis} | {reason} |");
     }
     page
 }

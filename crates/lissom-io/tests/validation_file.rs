@@ -144,7 +144,7 @@ fn what_is_no_arm_of_this_log_is_refused_with_a_way_out() {
     let mut no_tips = own.clone();
     no_tips.tips.clear();
     assert!(matches!(refused(&good, &no_tips), ResultError::OtherTips { .. }));
-    let ripple = json!({ "period": 1e-12, "cosine": 0.01, "sine": 0.0 });
+    let ripple = json!({ "wave_number": 1e9, "cosine": 0.01, "sine": 0.0 });
     for (key, value) in [
         ("/arm/inertia", json!(-1.0)),
         ("/arm/modes/0/natural_frequency_rad_s", json!(0.0)),

@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use lissom::io::{ComparedFile, ParameterList, write};
+use lissom::io::{ComparedFile, ParameterList, ResultFile, write};
 use pyo3::prelude::*;
 
 use crate::errors::raised;
@@ -13,7 +13,10 @@ use crate::errors::raised;
 pub(crate) fn compare(py: Python<'_>, results: Vec<(String, String)>) -> PyResult<String> {
     let work = || -> Result<String, lissom::Error> {
         let list = |(name, text): &(String, String)| {
-            Ok::<_, lissom::Error>((name.clone(), ParameterList::of_text(name, text)?))
+            Ok::<_, lissom::Error>((
+                name.clone(),
+                ParameterList::of(&ResultFile::of_text(name, text)?),
+            ))
         };
         let lists = results.iter().map(list).collect::<Result<Vec<_>, _>>()?;
         Ok(write::json_text(Path::new("comparison"), &ComparedFile::of(&lists)?)?)

@@ -16,10 +16,8 @@ pub(crate) type Row = (String, String, String, Option<(f64, f64, [f64; 2])>, Vec
 #[pyfunction]
 pub(crate) fn parameters(py: Python<'_>, result: &str) -> PyResult<Vec<Row>> {
     let fail = |error| raised(py, lissom::io::Error::from(error));
-    let list = ParameterList::of_text(RESULT, result).map_err(fail)?;
-    // Every table is one of this version.
-    ResultFile::of_text(RESULT, result).map_err(fail)?;
-    Ok(rows(list.parameters))
+    let result = ResultFile::of_text(RESULT, result).map_err(fail)?;
+    Ok(rows(ParameterList::of(&result).parameters))
 }
 
 /// Parameters as rows.

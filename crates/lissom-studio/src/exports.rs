@@ -3,11 +3,11 @@
 use std::fs;
 use std::path::{MAIN_SEPARATOR, Path};
 
+use lissom::record::Axis;
 use lissom_io::ResultFile;
 use lissom_io::export::{
     c_files, export_model_of_result, mat_file, matlab_script, mjcf, python_script,
 };
-use lissom_io::result::AxisName;
 
 use crate::problem::Problem;
 
@@ -54,7 +54,7 @@ pub(crate) fn export(folder: &Path, name: &str) -> Result<Export, Problem> {
         }
         "arm.toml" => {
             let text = fs::read(folder.join(name)).map_err(|_| {
-                let is_linear = ResultFile::read(&result).is_ok_and(|r| r.axis == AxisName::Linear);
+                let is_linear = ResultFile::read(&result).is_ok_and(|r| r.axis == Axis::Linear);
                 let (error, hint) = if is_linear {
                     let error =
                         "plans and the virtual rig are of rotary axes, and this axis is linear";

@@ -10,7 +10,7 @@ use axum::response::{IntoResponse, Response};
 use axum::routing::{delete, get, post, put};
 use axum::{Json, Router, middleware};
 use lissom_io::result::ComparisonError;
-use lissom_io::{ComparedFile, read_result};
+use lissom_io::{ComparedFile, ParameterList, ResultFile};
 use lissom_views::compare_page;
 use serde::{Deserialize, Serialize};
 
@@ -344,8 +344,8 @@ async fn compare(
         for text in chosen.results.split(',') {
             let id = text.parse().ok().and_then(|id| session.result(id));
             let result = id.ok_or_else(|| Problem::not_found("result"))?;
-            let list = read_result(&app.folder.result(result.id).join("result.json"))?;
-            lists.push((format!("{} ({})", result.name, result.id), list));
+            let file = ResultFile::read(&app.folder.result(result.id).join("result.json"))?;
+            lists.push((format!("{} ({})", result.name, result.id), ParameterList::of(&file)));
         }
         let found = ComparedFile::of(&lists).map_err(|error| match error {
             ComparisonError::Copy { file, other } => Problem::input(

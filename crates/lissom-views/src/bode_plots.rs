@@ -2,7 +2,8 @@
 
 use lissom::identify::NORMAL_95;
 use lissom::lti::{CoefficientCovariance, TransferFunction};
-use lissom_io::result::{SeriesEntry, TipQuantityName, TipResponseEntry, TransferFunctionEntry};
+use lissom::record::TipQuantity;
+use lissom_io::result::{SeriesEntry, TipResponseEntry};
 use lissom_io::{ResultFile, UnitNames};
 use lissom_report::{BodePlot, Role, Series, Style};
 use num_complex::Complex64;
@@ -60,7 +61,7 @@ fn points(result: &ResultFile, series: &SeriesEntry) -> Vec<Point> {
 }
 
 /// The model of the motor; none if its inertia is refused, which the model then contains.
-pub(crate) fn motor_model(result: &ResultFile) -> Option<&TransferFunctionEntry> {
+pub(crate) fn motor_model(result: &ResultFile) -> Option<&TransferFunction> {
     result.models.motor.as_ref().filter(|_| result.drive.inertia.is_some())
 }
 
@@ -148,11 +149,7 @@ fn tip_plot(
     result: &ResultFile,
     reference: Option<&Reference>,
 ) -> BodePlot {
-    let what = match tip.quantity {
-        TipQuantityName::Angle => "angle",
-        TipQuantityName::Deflection => "deflection",
-        TipQuantityName::Acceleration => "acceleration",
-    };
+    let what = tip.quantity.name();
     let measured = Series::new(
         "as measured",
         Role::Corrected,
@@ -166,7 +163,7 @@ fn tip_plot(
     let grid = grid(result);
     // The model of a calibrated deflection is that of its angle.
     let model = result.models.tips.get(i);
-    if let Some(model) = model.filter(|_| tip.quantity != TipQuantityName::Deflection) {
+    if let Some(model) = model.filter(|_| tip.quantity != TipQuantity::Deflection) {
         if model.covariance.is_some() {
             plot = plot.subtitle(format!("bars: one standard error{BAND}"));
         }
@@ -174,7 +171,7 @@ fn tip_plot(
         plot = plot.series(fitted(&of_model, delay_s, model.covariance.as_ref(), &grid));
     }
     let known_arm = reference.and_then(|r| Some((r.label, r.arm.as_ref()?)));
-    if let Some((label, arm)) = known_arm.filter(|_| tip.quantity == TipQuantityName::Angle) {
+    if let Some((label, arm)) = known_arm.filter(|_| tip.quantity == TipQuantity::Angle) {
         let exact: Vec<(f64, Complex64)> =
             grid.iter().filter_map(|w| Some((*w, arm.tip_response(*w).get(i).copied()?))).collect();
         plot = plot.series(known(label, &exact));

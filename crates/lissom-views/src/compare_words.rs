@@ -2,9 +2,10 @@
 
 use std::f64::consts::PI;
 
+use lissom::identify::Method;
 use lissom_io::ComparedFile;
 use lissom_io::result::{
-    ComparedParameterEntry, ComparedResultEntry, EstimateEntry, LawTermName, MethodName, PHASE_KEY,
+    ComparedParameterEntry, ComparedResultEntry, EstimateEntry, LawTermName, PHASE_KEY,
     ParameterDifferenceEntry,
 };
 use lissom_report::{significant, with_uncertainty};
@@ -265,14 +266,15 @@ fn modes(found: &ComparedFile) -> Option<String> {
 
 pub(crate) fn method(result: &ComparedResultEntry) -> &'static str {
     match result.from {
-        Some(MethodName::OutputError) => "output-error method",
-        Some(MethodName::FrictionLaw) => "regression with further terms",
-        Some(MethodName::Regression) => "regression",
-        Some(MethodName::LeastSquares) => "least squares",
-        Some(MethodName::FrequencyResponse) => "frequency response",
-        Some(MethodName::ThirdHarmonic) => "third harmonic",
-        Some(MethodName::ConstantVelocity) => "constant velocities",
-        None => "no method gives friction and inertia",
+        Some(Method::OutputError) => "output-error method",
+        Some(Method::FrictionLaw) => "regression with further terms",
+        Some(Method::Regression) => "regression",
+        Some(Method::LeastSquares) => "least squares",
+        Some(Method::FrequencyResponse) => "frequency response",
+        Some(Method::ThirdHarmonic) => "third harmonic",
+        Some(Method::ConstantVelocity) => "constant velocities",
+        // The comparison names every method that the library has.
+        Some(_) | None => "no method gives friction and inertia",
     }
 }
 

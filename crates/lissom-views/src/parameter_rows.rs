@@ -1,12 +1,12 @@
 //! The parameters of a result, one row for each.
 
-use lissom::identify::Estimate;
+use lissom::identify::{Estimate, Method};
 use lissom_io::result::finding_keys::{
     CONSTANT_VELOCITY, COULOMB, COUPLING, GRAVITY, INERTIA, MODES, OFFSET, VISCOUS,
 };
 use lissom_io::result::{
     ChosenTermEntry, ConstantVelocityEntry, DirectionName, EstimateEntry, FrictionLineEntry,
-    LawEntry, LawTermName, MethodName,
+    LawEntry, LawTermName,
 };
 use lissom_io::{ResultFile, UnitNames};
 
@@ -147,10 +147,8 @@ pub fn parameter_rows(
 /// Lag of the command behind the angle \[s\], of the method that the estimates are from.
 fn lag_s(result: &ResultFile) -> Option<Estimate> {
     match result.from? {
-        MethodName::OutputError => {
-            given(result.methods.output_error.as_ref()?.command_lag_s.as_ref())
-        }
-        MethodName::FrictionLaw => {
+        Method::OutputError => given(result.methods.output_error.as_ref()?.command_lag_s.as_ref()),
+        Method::FrictionLaw => {
             let law = result.methods.friction_law.as_ref()?;
             let is_lag = |t: &&ChosenTermEntry| t.term.term == LawTermName::CommandLag;
             law.chosen.terms.iter().find(is_lag)?.amplitude.first().map(EstimateEntry::estimate)

@@ -2,9 +2,9 @@
 
 use std::collections::HashSet;
 
-use lissom::identify::LogPrediction;
+use lissom::identify::{LogPrediction, Severity};
 use lissom::record::Campaign;
-use lissom_io::result::{FindingEntry, SeverityName};
+use lissom_io::result::FindingEntry;
 use lissom_io::{ResultFile, UnitNames};
 use lissom_report::{
     BodePlot, Finding as ReportFinding, KeyFigure, Page, Role, Severity as ReportSeverity,
@@ -261,8 +261,8 @@ fn in_words(result: &ResultFile, rows: &[ParameterRow]) -> String {
     });
     format!(
         "{what}. {} and {}.",
-        counted(count(SeverityName::Warning), "warning"),
-        counted(count(SeverityName::Refusal), "refusal")
+        counted(count(Severity::Warning), "warning"),
+        counted(count(Severity::Refusal), "refusal")
     )
 }
 
@@ -310,7 +310,7 @@ fn key_figures(
 /// Codes of the warnings and refusals that affect a key of the result.
 fn doubted_by(result: &ResultFile, key: &str) -> Vec<String> {
     let mut codes: Vec<String> = Vec::new();
-    for finding in result.findings.iter().filter(|f| f.severity != SeverityName::Info) {
+    for finding in result.findings.iter().filter(|f| f.severity != Severity::Info) {
         let is_new = !codes.contains(&finding.code);
         if is_new && finding.affects.iter().any(|affected| affected == key) {
             codes.push(finding.code.clone());
@@ -340,9 +340,9 @@ fn constant_velocity_values(result: &ResultFile) -> Vec<KeyFigure> {
 
 fn finding(f: &FindingEntry, hint: Option<&str>) -> ReportFinding {
     let severity = match f.severity {
-        SeverityName::Info => ReportSeverity::Info,
-        SeverityName::Warning => ReportSeverity::Warning,
-        SeverityName::Refusal => ReportSeverity::Refusal,
+        Severity::Info => ReportSeverity::Info,
+        Severity::Warning => ReportSeverity::Warning,
+        Severity::Refusal => ReportSeverity::Refusal,
     };
     let mut finding = ReportFinding::new(severity, f.code.clone(), f.message.clone());
     finding.run.clone_from(&f.run);

@@ -3,7 +3,7 @@
 use std::path::{Path, PathBuf};
 
 use lissom_io::write::{self, Batch};
-use lissom_io::{ComparedFile, Error, read_result};
+use lissom_io::{ComparedFile, Error, ParameterList, ResultFile};
 use lissom_views::compare_page;
 
 use crate::args::compare_args::CompareArgs;
@@ -47,8 +47,8 @@ pub(crate) fn run(args: &CompareArgs) -> Result<ExitCode, Failure> {
 fn compared(files: &[PathBuf]) -> Result<ComparedFile, Failure> {
     refuse_repeated(files)?;
     let read = |file: &PathBuf| {
-        let list = read_result(file).map_err(Failure::NoResult)?;
-        Ok::<_, Failure>((file.display().to_string(), list))
+        let result = ResultFile::read(file).map_err(Failure::NoResult)?;
+        Ok::<_, Failure>((file.display().to_string(), ParameterList::of(&result)))
     };
     let lists = files.iter().map(read).collect::<Result<Vec<_>, _>>()?;
     Ok(ComparedFile::of(&lists).map_err(Error::from)?)
@@ -56,7 +56,7 @@ fn compared(files: &[PathBuf]) -> Result<ComparedFile, Failure> {
 
 /// Whether a file is a result of `lissom identify`.
 fn is_result(file: &Path) -> bool {
-    file.is_file() && read_result(file).is_ok()
+    file.is_file() && ResultFile::read(file).is_ok()
 }
 
 fn refuse_repeated(files: &[PathBuf]) -> Result<(), Failure> {

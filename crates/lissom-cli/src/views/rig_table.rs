@@ -4,7 +4,6 @@ use std::path::Path;
 
 use lissom::beam::Base;
 use lissom::rig::Rig;
-use lissom_io::rig::RigFindingName;
 use lissom_io::{ArmFile, PlanFile, RigRunEntry};
 
 use super::printer;
@@ -49,13 +48,13 @@ pub(crate) fn report(plan: &PlanFile, entries: &[RigRunEntry], campaign: &Path) 
 
 /// Prints the findings, those of one kind together.
 fn warn(plan: &PlanFile, entries: &[RigRunEntry]) {
-    let mut kinds: Vec<(RigFindingName, Vec<String>)> = Vec::new();
+    let mut kinds: Vec<(&str, Vec<String>)> = Vec::new();
     for (run, entry) in plan.runs.iter().zip(entries) {
         for finding in &entry.findings {
             let line = format!("warning: {}: {}", run.name, finding.message);
             match kinds.iter_mut().find(|(code, _)| *code == finding.code) {
                 Some((_, lines)) => lines.push(line),
-                None => kinds.push((finding.code, vec![line])),
+                None => kinds.push((finding.code.as_str(), vec![line])),
             }
         }
     }

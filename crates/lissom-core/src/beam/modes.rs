@@ -12,6 +12,8 @@ use crate::number::Dual;
 /// `C_t/θ_m = Σ_k Γ_k²·ω_k²·s²/(s² + ω_k²) + (I − Σ_k Γ_k²)·s²`, with the inertia I of the
 /// beam about the axis \[kg·m²\].
 #[derive(Debug, Clone, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct Mode {
     /// ω_k, undamped natural frequency \[rad/s\].
     pub natural_frequency_rad_s: f64,

@@ -7,12 +7,17 @@ use num_complex::Complex64;
 /// # Source
 /// `[Feliu1989, Section 3, property 1]`
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub enum RootClass {
     /// a: z < 0, two conjugate roots on the imaginary axis.
+    #[cfg_attr(feature = "serde", serde(rename = "a"))]
     Imaginary,
     /// b: z ≥ 0, two real roots of opposite sign; non-minimum phase.
+    #[cfg_attr(feature = "serde", serde(rename = "b"))]
     Real,
     /// c: z not real; z and its conjugate give four roots symmetric about both axes; non-minimum phase.
+    #[cfg_attr(feature = "serde", serde(rename = "c"))]
     Quadruple,
 }
 

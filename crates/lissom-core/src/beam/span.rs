@@ -45,6 +45,8 @@ impl Span {
 
 /// A rigid body at the tip, in addition to the last mass.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct Payload {
     /// Mass \[kg\].
     pub mass_kg: f64,

@@ -8,10 +8,16 @@ use std::any::Any;
 use std::fmt;
 use std::sync::Arc;
 
+use strum::IntoStaticStr;
+
 pub(crate) mod result_key;
 
 /// How much a finding matters.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, IntoStaticStr)]
+#[strum(serialize_all = "snake_case")]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(rename_all = "snake_case"))]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub enum Severity {
     /// Worth knowing.
     Info,
@@ -24,11 +30,7 @@ pub enum Severity {
 impl Severity {
     /// Name in texts and files.
     pub fn name(self) -> &'static str {
-        match self {
-            Self::Info => "info",
-            Self::Warning => "warning",
-            Self::Refusal => "refusal",
-        }
+        self.into()
     }
 }
 

@@ -14,6 +14,8 @@ use super::with_load::{WithLoad, WithLoadSeries};
 ///
 /// The symbols are explained at [`NearRest`], [`Ripple`], [`Root`] and [`WithLoad`]. Rig, replay and identification share these terms.
 #[derive(Debug, Clone, PartialEq, Default)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct DryTerms {
     /// Change of friction near rest, if there is any.
     pub near_rest: Option<NearRest>,

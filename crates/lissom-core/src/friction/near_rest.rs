@@ -21,12 +21,17 @@ const GONE: [f64; 2] = [9.0, 3.0];
 /// # Source
 /// `[Armstrong1994]`. A_s > 0 is the Stribeck effect; with A_s < 0 friction grows less than in proportion to speed.
 #[derive(Debug, Clone, Copy, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct NearRest {
     /// A_s \[N·m\]: friction at rest minus Coulomb friction, mean of both directions.
+    #[cfg_attr(feature = "serde", serde(rename = "amplitude"))]
     pub torque_nm: f64,
     /// a_s \[N·m\]: half the difference of that change, forward minus backward.
+    #[cfg_attr(feature = "serde", serde(skip))]
     pub offset_nm: f64,
     /// v_s \[rad/s\]: speed over which friction changes.
+    #[cfg_attr(feature = "serde", serde(rename = "speed"))]
     pub speed_rad_s: f64,
     /// Exponential or Gaussian.
     pub falloff: Falloff,

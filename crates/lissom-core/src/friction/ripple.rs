@@ -10,12 +10,17 @@ const PHASE_PER_STEP: f64 = 0.4;
 /// Ripple: friction that changes periodically over the travel, `s·(B_r·cos k_rθ + C_r·sin k_rθ)`, with
 /// the direction of motion s = ±1.
 #[derive(Debug, Clone, Copy, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct Ripple {
     /// k_r \[1/rad, or rad/m on a linear axis\]: waves per turn on a rotary axis.
+    #[cfg_attr(feature = "serde", serde(rename = "wave_number"))]
     pub per_rad: f64,
     /// B_r \[N·m\], the cosine part.
+    #[cfg_attr(feature = "serde", serde(rename = "cosine"))]
     pub cosine_nm: f64,
     /// C_r \[N·m\], the sine part.
+    #[cfg_attr(feature = "serde", serde(rename = "sine"))]
     pub sine_nm: f64,
 }
 

@@ -14,8 +14,11 @@ const SHARE_PER_STEP: f64 = 0.4;
 /// Friction that grows with the square root of speed: the torque against the motion is `s·A·(√(|v| + e) − √e)`, with the
 /// velocity v of the motor, its direction s = ±1 and e = [`ROOT_SPEED_RAD_S`].
 #[derive(Debug, Clone, Copy, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct Root {
     /// A \[N·m/√(rad/s)\].
+    #[cfg_attr(feature = "serde", serde(rename = "amplitude"))]
     pub torque_nm_per_root_rad_s: f64,
 }
 

@@ -16,10 +16,13 @@ const SHARE_PER_STEP: f64 = 0.4;
 /// `s·μ·√(g² + d²)`, with `g = g_s·sin θ + g_c·cos θ`, the direction of motion s = ±1 and d = [`ROUNDED_LOAD_SHARE`] times
 /// the largest g. It differs from `s·μ·|g|` by at most μ·d.
 #[derive(Debug, Clone, Copy, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct WithLoad {
     /// μ \[1\].
     pub coefficient: f64,
     /// The load with the torque g.
+    #[cfg_attr(feature = "serde", serde(flatten))]
     pub load: GravityLoad,
 }
 

@@ -1,11 +1,17 @@
 //! Estimates of friction, inertia and coupling from one method.
 
+use strum::IntoStaticStr;
+
 use crate::identify::estimate::Estimate;
 use crate::identify::friction_estimates::Friction;
 use crate::identify::gravity_estimate::Gravity;
 
 /// A method that estimates the parameters of the drive.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, IntoStaticStr)]
+#[strum(serialize_all = "snake_case")]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(rename_all = "snake_case"))]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[non_exhaustive]
 pub enum Method {
     /// Output-error method: simulates the arm under the logged command and changes its parameters until the simulated
@@ -28,15 +34,7 @@ pub enum Method {
 impl Method {
     /// Name in result files.
     pub fn name(self) -> &'static str {
-        match self {
-            Self::OutputError => "output_error",
-            Self::FrictionLaw => "friction_law",
-            Self::Regression => "regression",
-            Self::LeastSquares => "least_squares",
-            Self::FrequencyResponse => "frequency_response",
-            Self::ThirdHarmonic => "third_harmonic",
-            Self::ConstantVelocity => "constant_velocity",
-        }
+        self.into()
     }
 }
 

@@ -16,6 +16,9 @@ use crate::replay::ModalArm;
 
 /// The method that an arm comes from.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(rename_all = "snake_case"))]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub enum ArmSource {
     /// The output-error method, whose arm describes the runs.
     OutputError,

@@ -9,10 +9,14 @@ use crate::record::Campaign;
 /// `J·θ̈ + V·θ̇ + friction + g_s·sin θ + g_c·cos θ = K·i`. A mass m at the distance l from the axis gives
 /// `m·g·l·sin(θ + φ)` and hangs at rest at θ = −φ.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct GravityLoad {
     /// g_s \[N·m; unit of the command where the torque constant is unknown\].
+    #[cfg_attr(feature = "serde", serde(rename = "sine"))]
     pub sine_nm: f64,
     /// g_c, in the unit of g_s.
+    #[cfg_attr(feature = "serde", serde(rename = "cosine"))]
     pub cosine_nm: f64,
 }
 

@@ -13,12 +13,17 @@
 /// assert!(cogging.torque_nm(0.1) > 0.0); // and is pulled back to it
 /// ```
 #[derive(Debug, Clone, Copy, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct TorqueRipple {
     /// k \[1/rad, or rad/m on a linear axis\]: waves per turn on a rotary axis.
+    #[cfg_attr(feature = "serde", serde(rename = "wave_number"))]
     pub per_rad: f64,
     /// B \[N·m; unit of the command where the torque constant is unknown\].
+    #[cfg_attr(feature = "serde", serde(rename = "cosine"))]
     pub cosine_nm: f64,
     /// C, in the unit of B.
+    #[cfg_attr(feature = "serde", serde(rename = "sine"))]
     pub sine_nm: f64,
 }
 

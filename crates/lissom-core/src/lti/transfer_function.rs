@@ -7,6 +7,8 @@ use crate::eigenvalues::eigenvalues;
 
 /// A rational transfer function, `num(s)/den(s)`, with coefficients in descending powers of s \[1/s\].
 #[derive(Debug, Clone, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct TransferFunction {
     /// Coefficients of the numerator.
     pub num: Vec<f64>,

@@ -2,6 +2,7 @@
 
 use std::collections::BTreeMap;
 use std::fmt;
+use strum::IntoStaticStr;
 
 use super::known::KnownRig;
 use super::sizing::Unfit;
@@ -9,7 +10,8 @@ use super::{ArmParameter, Candidate, Expected, PlannedParameter, percent};
 use crate::rig::{JointFriction, Rig};
 
 /// A note of a plan.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, IntoStaticStr)]
+#[strum(serialize_all = "kebab-case")]
 #[non_exhaustive]
 pub enum PlanNote {
     /// A requested precision that is not reached within the time.
@@ -24,6 +26,7 @@ pub enum PlanNote {
         torque_share: Option<f64>,
     },
     /// Modes that are not planned for, because they are too fast for the log or act too little on the motor.
+    #[strum(serialize = "modes-left-out")]
     LeftOut {
         /// Their frequencies \[rad/s\].
         omega_rad_s: Vec<f64>,
@@ -37,6 +40,7 @@ pub enum PlanNote {
     /// The plan for a damped beam contains only steady sines.
     SinesAlone,
     /// Motions that were dropped.
+    #[strum(serialize = "motions-of-no-use")]
     Unfit {
         /// The reason.
         reason: Unfit,
@@ -52,17 +56,7 @@ pub enum PlanNote {
 impl PlanNote {
     /// Stable name, for programs.
     pub fn code(&self) -> &'static str {
-        match self {
-            Self::Unreached { .. } => "unreached",
-            Self::LeftOut { .. } => "modes-left-out",
-            Self::IdealSensor => "ideal-sensor",
-            Self::CurrentNoise => "current-noise",
-            Self::NoPair => "no-pair",
-            Self::SinesAlone => "sines-alone",
-            Self::Unfit { .. } => "motions-of-no-use",
-            Self::SceneLeftOut => "scene-left-out",
-            Self::GravityByRegression => "gravity-by-regression",
-        }
+        self.into()
     }
 
     /// Whether a wish is not met, or an expected standard error may be too small.

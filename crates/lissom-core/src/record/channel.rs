@@ -1,12 +1,25 @@
 //! The channels of a campaign: what each one is, and what is known of it.
 
+use strum::IntoStaticStr;
+
 /// Kind of axis; it decides the units of all parameters.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, IntoStaticStr)]
+#[strum(serialize_all = "snake_case")]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(rename_all = "snake_case"))]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub enum Axis {
     /// Angles in rad, torques in N·m, inertia in kg·m².
     Rotary,
     /// Positions in m, forces in N, mass in kg.
     Linear,
+}
+
+impl Axis {
+    /// Name in texts and files.
+    pub fn name(self) -> &'static str {
+        self.into()
+    }
 }
 
 /// Quantity of the drive's command.
@@ -73,7 +86,11 @@ impl Command {
 }
 
 /// Quantity that a tip sensor measures.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, IntoStaticStr)]
+#[strum(serialize_all = "snake_case")]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(rename_all = "snake_case"))]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub enum TipQuantity {
     /// Angle of the radius to the point in the fixed frame \[rad\], θ_i in the 1989 report.
     Angle,
@@ -81,6 +98,13 @@ pub enum TipQuantity {
     Deflection,
     /// Second time derivative of θ_i \[rad/s²\], or of the point's position on a linear axis \[m/s²\].
     Acceleration,
+}
+
+impl TipQuantity {
+    /// Name in texts and files.
+    pub fn name(self) -> &'static str {
+        self.into()
+    }
 }
 
 /// A sensor along the beam.

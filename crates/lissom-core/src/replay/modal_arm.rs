@@ -15,14 +15,20 @@ pub(crate) const TURN_MOST: f64 = 3000.0;
 
 /// One mode of the clamped beam, as an oscillator of inertia k/ω² on the motor.
 #[derive(Debug, Clone, Copy, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct Oscillator {
     /// Natural frequency ω with the motor clamped \[rad/s\].
+    #[cfg_attr(feature = "serde", serde(rename = "natural_frequency_rad_s"))]
     pub omega_rad_s: f64,
     /// Stiffness k: coupling torque of this mode per angle of the motor, with the masses held \[N·m/rad\].
+    #[cfg_attr(feature = "serde", serde(rename = "stiffness"))]
     pub stiffness_nm_per_rad: f64,
     /// Damping within the beam, d = 2ζω \[1/s\].
+    #[cfg_attr(feature = "serde", serde(rename = "damping_within_per_s"))]
     pub within_per_s: f64,
     /// Damping against the fixed frame, a = 2ζω \[1/s\].
+    #[cfg_attr(feature = "serde", serde(rename = "damping_grounded_per_s"))]
     pub grounded_per_s: f64,
 }
 

@@ -2,6 +2,8 @@
 
 use std::fmt;
 
+use strum::IntoStaticStr;
+
 /// Place of a sensor.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum SensorPlace {
@@ -21,7 +23,8 @@ impl fmt::Display for SensorPlace {
 }
 
 /// A finding about a simulated run.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, IntoStaticStr)]
+#[strum(serialize_all = "snake_case")]
 #[non_exhaustive]
 pub enum RigFinding {
     /// The log began before the transient had decayed.
@@ -75,6 +78,13 @@ fn samples(count: usize) -> String {
 /// Three digits without an exponent.
 fn plain(value: f64) -> f64 {
     format!("{value:.2e}").parse().unwrap_or(value)
+}
+
+impl RigFinding {
+    /// Stable name, for programs.
+    pub fn code(&self) -> &'static str {
+        self.into()
+    }
 }
 
 impl fmt::Display for RigFinding {

@@ -1,6 +1,7 @@
 //! The table `[beam]`.
 
 use lissom_core::beam::{Damping, Payload};
+use serde::{Deserialize, Serialize};
 
 use super::material::{MATERIAL_KEYS, Material};
 use crate::config::{ConfigError, ConfigPlace, Table, Value};
@@ -42,7 +43,9 @@ pub struct SpanSpec {
 }
 
 /// Where the mass of a beam is.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+#[serde(rename_all = "snake_case")]
 pub enum BeamKind {
     /// At points, with massless spans between them.
     Lumped,

@@ -58,8 +58,8 @@ pub fn export_model_of_result(path: &Path) -> Result<ExportModel, Error> {
 /// # Errors
 /// As [`export_model_of_result`].
 pub fn export_model_of_text(file: String, text: &str) -> Result<ExportModel, Error> {
-    let listed = ParameterList::of_text(&file, text)?;
     let result = ResultFile::of_text(&file, text)?;
+    let listed = ParameterList::of(&result);
     let Some(entry) = &result.arm else { return Err(ExportError::NoArm { file }.into()) };
     let found = entry.found(listed.names).map_err(|wrong| crate::result::ResultError::Key {
         file: file.clone(),

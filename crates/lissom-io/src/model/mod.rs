@@ -12,8 +12,8 @@ mod state_space_entry;
 pub use beam_model::{Function, Model, PayloadCase};
 pub use frequency_file::{FrequencyError, read_frequencies};
 pub use model_file::{
-    BeamKindName, ComplexEntry, FunctionEntry, ModeShapeEntry, ModelFile, PayloadCaseEntry,
-    PropertyEntry, ResponsesEntry, RootClassName, TipPayloadEntry, TruncatedEntry, ZeroEntry,
+    ComplexEntry, FunctionEntry, ModelFile, PayloadCaseEntry, PropertyEntry, ResponsesEntry,
+    TruncatedEntry, ZeroEntry,
 };
 pub use model_responses::Responses;
 pub use state_space_entry::StateSpaceEntry;

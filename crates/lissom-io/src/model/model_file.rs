@@ -19,7 +19,7 @@ pub struct ModelFile {
     /// Version of lissom that wrote the file.
     pub lissom: String,
     /// Where the beam's mass is.
-    pub kind: BeamKindName,
+    pub kind: BeamKind,
     /// Number of masses, of spans of a distributed beam, or of points of a beam given by its modes.
     pub n: usize,
     /// Length from clamp to tip; null for a beam given by its modes.
@@ -33,7 +33,7 @@ pub struct ModelFile {
     /// Distance of each mass, or of the end of each span, from the motor's axis.
     pub position_m: Vec<f64>,
     /// Payload at the tip; null for a beam given by its modes.
-    pub payload: Option<TipPayloadEntry>,
+    pub payload: Option<Payload>,
     /// Inertia of beam, masses and payload about the motor's axis, as a rigid body.
     pub inertia_kg_m2: f64,
     /// EI*A of (13), N/m, rows.
@@ -57,7 +57,7 @@ pub struct ModelFile {
     /// Natural frequencies with the rotor free and without friction; null without a drive.
     pub coupled_frequencies_rad_s: Option<Vec<f64>>,
     /// Modes with the motor clamped.
-    pub modes: Option<Vec<ModeShapeEntry>>,
+    pub modes: Option<Vec<Mode>>,
     /// Zeros of the tip's response per motor angle, in ascending magnitude.
     pub tip_zeros: Option<Vec<ZeroEntry>>,
     /// Transfer functions.
@@ -78,45 +78,6 @@ pub struct ModelFile {
     pub warnings: Vec<String>,
 }
 
-/// Where the mass of a beam is.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
-#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
-#[serde(rename_all = "snake_case")]
-pub enum BeamKindName {
-    /// Point masses.
-    Lumped,
-    /// Mass along the beam.
-    Distributed,
-    /// Unknown: the beam is given by its modes.
-    Modal,
-}
-
-/// Payload at the tip.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
-pub struct TipPayloadEntry {
-    /// Its mass.
-    pub mass_kg: f64,
-    /// Rotary inertia about its own centre of mass.
-    pub inertia_kg_m2: f64,
-    /// Distance of its centre of mass from the tip, along the tangent of the beam, positive outward.
-    pub offset_m: f64,
-}
-
-/// A mode with the motor clamped.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
-pub struct ModeShapeEntry {
-    /// Its natural frequency.
-    pub natural_frequency_rad_s: f64,
-    /// Deflection at each position, scaled to a largest value of 1.
-    pub shape: Vec<f64>,
-    /// Share of the mode in each angle per motor angle: theta_i/theta_m = sum of share/(1 + s^2/omega^2).
-    pub share: Vec<f64>,
-    /// Inertia that the mode adds to the motor at low frequency.
-    pub inertia_kg_m2: f64,
-}
-
 /// A complex number; a part that is not finite is null.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
@@ -134,20 +95,7 @@ pub struct ZeroEntry {
     /// The square of the zeros in 1/s^2: the zeros are both of its square roots.
     pub s_squared: ComplexEntry,
     /// Their class.
-    pub class: RootClassName,
-}
-
-/// Class of a root as in Section 3 of the 1989 report; b and c are non-minimum phase.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
-#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
-#[serde(rename_all = "snake_case")]
-pub enum RootClassName {
-    /// A pair on the imaginary axis.
-    A,
-    /// A real pair.
-    B,
-    /// Half of a quadruple.
-    C,
+    pub class: RootClass,
 }
 
 /// A transfer function.
@@ -254,18 +202,14 @@ impl ModelFile {
         let dimensions = model.kind != BeamKind::Modal;
         Self {
             lissom: env!("CARGO_PKG_VERSION").to_owned(),
-            kind: match model.kind {
-                BeamKind::Lumped => BeamKindName::Lumped,
-                BeamKind::Distributed => BeamKindName::Distributed,
-                BeamKind::Modal => BeamKindName::Modal,
-            },
+            kind: model.kind,
             n: model.len(),
             length_m: dimensions.then(|| model.length_m()),
             hub_radius_m: dimensions.then_some(model.hub_radius_m),
             mass_kg: model.mass_kg.clone(),
             mass_along_kg: model.mass_along_kg,
             position_m: model.position_m.clone(),
-            payload: dimensions.then(|| TipPayloadEntry::of(&model.payload)),
+            payload: dimensions.then_some(model.payload),
             inertia_kg_m2: model.inertia_kg_m2,
             ei_a: m.map(|m| matrix_rows(&m.ei_a)),
             ei_b: m.map(|m| m.ei_b.as_slice().to_vec()),
@@ -277,7 +221,7 @@ impl ModelFile {
             h_torque: m.map(|m| m.h_torque),
             natural_frequencies_rad_s: model.natural_frequencies_rad_s.clone(),
             coupled_frequencies_rad_s: model.coupled_frequencies_rad_s.clone(),
-            modes: each(model.modes.as_deref(), ModeShapeEntry::of),
+            modes: model.modes.clone(),
             tip_zeros: model.tip_zeros.as_ref().map(ZeroEntry::list),
             transfer_functions: model.functions.iter().map(FunctionEntry::of).collect(),
             state_space: model.state_space.as_ref().map(StateSpaceEntry::of),
@@ -296,27 +240,6 @@ fn each<T, E>(list: Option<&[T]>, entry: impl Fn(&T) -> E) -> Option<Vec<E>> {
     list.map(|list| list.iter().map(entry).collect())
 }
 
-impl TipPayloadEntry {
-    fn of(payload: &Payload) -> Self {
-        Self {
-            mass_kg: payload.mass_kg,
-            inertia_kg_m2: payload.inertia_kg_m2,
-            offset_m: payload.offset_m,
-        }
-    }
-}
-
-impl ModeShapeEntry {
-    fn of(m: &Mode) -> Self {
-        Self {
-            natural_frequency_rad_s: m.natural_frequency_rad_s,
-            shape: m.shape.clone(),
-            share: m.share.clone(),
-            inertia_kg_m2: m.inertia_kg_m2,
-        }
-    }
-}
-
 impl ComplexEntry {
     fn of(value: Complex64) -> Self {
         let finite = |part: f64| Some(part).filter(|p| p.is_finite());
@@ -330,22 +253,8 @@ impl ComplexEntry {
 
 impl ZeroEntry {
     fn list(found: &Zeros) -> Vec<Self> {
-        let each = |z: &Complex64| Self {
-            s_squared: ComplexEntry::of(*z),
-            class: RootClassName::of(class(*z)),
-        };
+        let each = |z: &Complex64| Self { s_squared: ComplexEntry::of(*z), class: class(*z) };
         found.z.iter().map(each).collect()
-    }
-}
-
-impl RootClassName {
-    /// The name of a class.
-    pub fn of(class: RootClass) -> Self {
-        match class {
-            RootClass::Imaginary => Self::A,
-            RootClass::Real => Self::B,
-            RootClass::Quadruple => Self::C,
-        }
     }
 }
 

@@ -6,7 +6,7 @@
 mod plan_note_entry;
 mod planned_file;
 
-pub use plan_note_entry::{NoteSeverityName, PlanNoteEntry, PlanNoteName};
+pub use plan_note_entry::PlanNoteEntry;
 pub use planned_file::{
     ExpectedEntry, PlannedFile, PlannedParameterEntry, PlannedRunEntry, WithoutRunEntry,
 };

@@ -4,12 +4,11 @@ use std::f64::consts::{PI, TAU};
 
 use thiserror::Error;
 
-use super::channel_names::AxisName;
 use super::compared_file::{
     ComparedFile, ComparedParameterEntry, ComparedResultEntry, ParameterDifferenceEntry,
 };
 use super::estimate_entry::EstimateEntry;
-use super::read_result::{ListedParameter, PHASE_KEY, ParameterList};
+use super::parameter_list::{ListedParameter, PHASE_KEY, ParameterList};
 
 /// Number of standard errors above which a difference is called clear. A convention: chance alone gives more than three
 /// for 0.3 % of the parameters that have not changed.
@@ -70,7 +69,7 @@ impl ComparedFile {
         refuse_other_units(lists)?;
         Ok(Self {
             lissom: env!("CARGO_PKG_VERSION").to_owned(),
-            axis: AxisName::of(first.names.axis),
+            axis: first.names.axis,
             clear_standard_errors: CLEAR_STANDARD_ERRORS,
             results: lists.iter().map(|(file, list)| result_entry(file, list)).collect(),
             parameters: parameters(lists),
@@ -106,7 +105,7 @@ fn refuse_other_units(lists: &[(String, ParameterList)]) -> Result<(), Compariso
         .iter()
         .map(|(file, list)| {
             let known = list.torque_per_command.map_or(" (no torque constant)", |_| "");
-            let axis = AxisName::of(list.names.axis).text();
+            let axis = list.names.axis.name();
             format!("{file} has a {axis} axis and friction in {}{known}", list.names.torque_unit())
         })
         .collect();

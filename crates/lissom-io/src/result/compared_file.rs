@@ -1,8 +1,9 @@
 //! Comparison of results in JSON.
 
+use lissom_core::identify::Method;
+use lissom_core::record::Axis;
 use serde::{Deserialize, Serialize};
 
-use super::channel_names::{AxisName, MethodName};
 use super::estimate_entry::EstimateEntry;
 use super::friction_term_entries::LawTermName;
 
@@ -14,7 +15,7 @@ pub struct ComparedFile {
     /// Version of lissom that wrote the file.
     pub lissom: String,
     /// Kind of axis of all results.
-    pub axis: AxisName,
+    pub axis: Axis,
     /// Number of standard errors above which a difference is called clear.
     pub clear_standard_errors: f64,
     /// The results, in the order given.
@@ -30,7 +31,7 @@ pub struct ComparedResultEntry {
     /// The file name as given.
     pub file: String,
     /// The method that gave friction, inertia and coupling; null if none has a solution.
-    pub from: Option<MethodName>,
+    pub from: Option<Method>,
     /// Terms of its friction law in addition to Coulomb friction and one viscous coefficient.
     pub friction_terms: Vec<LawTermName>,
     /// Torque constant used, N*m or N per unit of command; null if it is unknown.

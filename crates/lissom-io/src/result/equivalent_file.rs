@@ -1,6 +1,7 @@
 //! The equivalent arm in JSON, in `result.json` and in a file of its own.
 
 use lissom_core::Matrix;
+use lissom_core::beam::RootClass;
 use lissom_core::identify::{
     Equivalent, EquivalentArm, Estimate, ResponseZero, Spurious, StdSource, StrainlessForm,
 };
@@ -9,7 +10,7 @@ use serde::{Deserialize, Serialize};
 use super::estimate_entry::{EstimateEntry, NumberEntry};
 use super::finding_entry::FindingEntry;
 use super::unit_names::UnitNames;
-use crate::model::{RootClassName, StateSpaceEntry, matrix_rows};
+use crate::model::{StateSpaceEntry, matrix_rows};
 
 /// Unit of A and B of (17).
 const PER_S2: &str = "1/s²";
@@ -60,7 +61,7 @@ pub struct EquivalentEntry {
     /// Residual relative to each response, rms.
     pub relative_residual: f64,
     /// Origin of the standard errors of the responses.
-    pub std_source: StdSourceName,
+    pub std_source: StdSource,
 }
 
 /// A mode of the equivalent arm.
@@ -86,20 +87,7 @@ pub struct SpuriousPoleEntry {
     /// Its damping ratio.
     pub damping_ratio: f64,
     /// Why it is not a mode.
-    pub why: SpuriousName,
-}
-
-/// Why a pole is not a mode.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
-#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
-#[serde(rename_all = "snake_case")]
-pub enum SpuriousName {
-    /// It is outside the measured frequencies.
-    Outside,
-    /// Its damping ratio is above 0.25 or negative.
-    Damped,
-    /// No point shows it with four standard errors or more.
-    Unfelt,
+    pub why: Spurious,
 }
 
 /// (17): second derivatives of the angles of the points, from these angles and the motor's.
@@ -164,7 +152,7 @@ pub struct PointZerosEntry {
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct ResponseZeroEntry {
     /// Its class.
-    pub class: RootClassName,
+    pub class: RootClass,
     /// Real part of the root in the first quadrant.
     pub re_rad_s: f64,
     /// Imaginary part of the root in the first quadrant.
@@ -173,19 +161,6 @@ pub struct ResponseZeroEntry {
     pub magnitude_rad_s: EstimateEntry,
     /// Whether it is outside the measured frequencies, so that omitted modes may change it.
     pub outside: bool,
-}
-
-/// Origin of the standard errors of responses.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
-#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
-#[serde(rename_all = "snake_case")]
-pub enum StdSourceName {
-    /// They are measured.
-    Measured,
-    /// They are measured, but at least 0.2 % of the response (campaigns).
-    Floored,
-    /// They are unknown, and estimated from the residual.
-    FromResidual,
 }
 
 impl EquivalentFile {
@@ -230,11 +205,7 @@ impl EquivalentEntry {
             highest_rad_s: found.fit.range_rad_s.1,
             weighted_rms: known.then_some(found.fit.weighted_rms),
             relative_residual: found.relative_residual,
-            std_source: match found.std_source {
-                StdSource::Measured => StdSourceName::Measured,
-                StdSource::Floored => StdSourceName::Floored,
-                StdSource::FromResidual => StdSourceName::FromResidual,
-            },
+            std_source: found.std_source,
         }
     }
 }
@@ -266,11 +237,7 @@ impl SpuriousPoleEntry {
             Some(Self {
                 natural_frequency_rad_s: pole.omega_rad_s,
                 damping_ratio: pole.damping_ratio,
-                why: match (*why)? {
-                    Spurious::Outside => SpuriousName::Outside,
-                    Spurious::Damped => SpuriousName::Damped,
-                    Spurious::Unfelt => SpuriousName::Unfelt,
-                },
+                why: (*why)?,
             })
         });
         spurious.collect()
@@ -308,7 +275,7 @@ impl ResponseZeroEntry {
     fn of(zero: &ResponseZero) -> Self {
         let s = zero.square.sqrt();
         Self {
-            class: RootClassName::of(zero.class),
+            class: zero.class,
             re_rad_s: s.re,
             im_rad_s: s.im,
             magnitude_rad_s: EstimateEntry::of(zero.omega_rad_s, "rad/s"),

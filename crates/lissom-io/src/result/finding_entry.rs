@@ -10,7 +10,7 @@ pub struct FindingEntry {
     /// Stable name; the page Findings in the book lists all codes.
     pub code: String,
     /// How much it matters.
-    pub severity: SeverityName,
+    pub severity: Severity,
     /// Name of the run that it is about; null if it is about all runs.
     pub run: Option<String>,
     /// Keys of the affected estimates, without the suffix of their unit.
@@ -21,41 +21,12 @@ pub struct FindingEntry {
     pub hint: String,
 }
 
-/// How much a finding matters.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
-#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
-#[serde(rename_all = "snake_case")]
-pub enum SeverityName {
-    /// Worth knowing.
-    Info,
-    /// The estimates are less certain than their standard errors say.
-    Warning,
-    /// The estimates are not given.
-    Refusal,
-}
-
-impl SeverityName {
-    /// Its name.
-    pub fn name(self) -> &'static str {
-        let severity = match self {
-            Self::Info => Severity::Info,
-            Self::Warning => Severity::Warning,
-            Self::Refusal => Severity::Refusal,
-        };
-        severity.name()
-    }
-}
-
 impl FindingEntry {
     /// The entry of a finding.
     pub fn of(f: &Finding) -> Self {
         Self {
             code: f.code().to_owned(),
-            severity: match f.severity() {
-                Severity::Info => SeverityName::Info,
-                Severity::Warning => SeverityName::Warning,
-                Severity::Refusal => SeverityName::Refusal,
-            },
+            severity: f.severity(),
             run: f.run.clone(),
             affects: f.affects().iter().map(|key| (*key).to_owned()).collect(),
             message: f.message(),

@@ -143,7 +143,7 @@ impl LawEntry {
         };
         let viscous = one_way.as_ref().or(self.viscous.as_ref())?.value;
         let near = self.terms.near_rest.as_ref().map_or(Some(0.0), |near| {
-            let share = near.falloff.falloff().share(speed / near.speed.value);
+            let share = near.falloff.share(speed / near.speed.value);
             Some(near.amplitude.as_ref()?.value * share)
         });
         let root = self.terms.root.as_ref().map_or(0.0, |root| root.value * speed.sqrt());

@@ -1,21 +1,17 @@
-//! Terms of friction other than Coulomb and viscous friction, in JSON: estimates, terms of a law, and terms of an arm.
+//! Terms of friction other than Coulomb and viscous friction, in JSON: estimates, and terms of a law.
 
 use std::f64::consts::TAU;
 
+use lissom_core::drive::Falloff;
 use lissom_core::identify::{
     LawEstimates, LawTerm, MissingKind, ModelTerm, NearRestEstimate, RippleEstimate,
 };
-use lissom_core::load::{GravityLoad, TorqueRipple};
-use lissom_core::replay::{DryTerms, NearRest, Ripple, Root, WithLoad};
 use serde::{Deserialize, Serialize};
+use strum::IntoStaticStr;
 
-use super::arm_numbers::{Numbers, WrongKey};
-use super::channel_names::{DirectionName, FalloffName};
+use super::channel_names::DirectionName;
 use super::estimate_entry::{EstimateEntry, NumberEntry};
 use super::unit_names::UnitNames;
-
-/// Shortest period of a ripple, in radians or metres, because a simulation follows each wave.
-const SHORTEST: f64 = 1e-6;
 
 /// Terms of friction in addition to Coulomb and viscous friction.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
@@ -50,7 +46,7 @@ pub struct NearRestEntry {
     /// Speed v_s.
     pub speed: EstimateEntry,
     /// Which of the two forms.
-    pub falloff: FalloffName,
+    pub falloff: Falloff,
 }
 
 /// A ripple of friction over the travel.
@@ -65,79 +61,6 @@ pub struct RippleEntry {
     pub phase: NumberEntry,
 }
 
-/// Terms of an arm's friction in addition to Coulomb and viscous friction.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
-pub struct ArmTermsEntry {
-    /// Friction near rest.
-    pub near_rest: Option<ArmNearRestEntry>,
-    /// Ripples of friction over the travel.
-    pub ripples: Vec<ArmRippleEntry>,
-    /// Friction that grows with the square root of speed; absent if there is none.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub root: Option<ArmRootEntry>,
-    /// Friction that grows with the torque of gravity; absent if there is none.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub with_load: Option<ArmWithLoadEntry>,
-}
-
-/// Friction that grows with the square root of speed: s*A*(sqrt(|v| + e) - sqrt(e)), s the direction, e = 1e-8 in the unit
-/// of v.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
-pub struct ArmRootEntry {
-    /// Amplitude A.
-    pub amplitude: f64,
-}
-
-/// Friction that grows with the torque of gravity: s*mu*sqrt(g^2 + d^2) with g = sine*sin(q) + cosine*cos(q), q the motor's
-/// angle, s the direction and d a thousandth of the largest g.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
-pub struct ArmWithLoadEntry {
-    /// Coefficient mu.
-    pub coefficient: f64,
-    /// Coefficient of sin(q).
-    pub sine: f64,
-    /// Coefficient of cos(q).
-    pub cosine: f64,
-}
-
-/// Friction near rest: s*A*exp(-|v|/v_s) or s*A*exp(-(v/v_s)^2), s the direction. Friction at rest is Coulomb friction
-/// plus A.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
-pub struct ArmNearRestEntry {
-    /// Amplitude A.
-    pub amplitude: f64,
-    /// Speed v_s.
-    pub speed: f64,
-    /// Which of the two forms.
-    pub falloff: FalloffName,
-}
-
-/// A ripple of friction: s*(cosine*cos(k*x) + sine*sin(k*x)) over the travel x, k = 2*pi/period, s the direction.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
-pub struct ArmRippleEntry {
-    /// Its period.
-    pub period: f64,
-    /// Amplitude of the cosine.
-    pub cosine: f64,
-    /// Amplitude of the sine.
-    pub sine: f64,
-}
-
-/// A torque ripple (cogging) of the motor: cosine*cos(k*x) + sine*sin(k*x) over the travel x, k = 2*pi/period, in both
-/// directions and at rest.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
-pub struct ArmTorqueRippleEntry {
-    /// The same keys as those of a ripple of friction.
-    #[serde(flatten)]
-    wave: ArmRippleEntry,
-}
-
 /// A term of friction, without its amplitude.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
@@ -146,7 +69,7 @@ pub struct LawTermEntry {
     pub term: LawTermName,
     /// How it changes with speed; only for `near-rest`.
     #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub falloff: Option<FalloffName>,
+    pub falloff: Option<Falloff>,
     /// Speed v_s; only for `near-rest`.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub speed: Option<NumberEntry>,
@@ -156,9 +79,10 @@ pub struct LawTermEntry {
 }
 
 /// A term of friction.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, IntoStaticStr)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(rename_all = "kebab-case")]
+#[strum(serialize_all = "kebab-case")]
 pub enum LawTermName {
     /// Viscous friction by direction: s*D*v, s the direction.
     ViscousByDirection,
@@ -211,7 +135,7 @@ impl NearRestEntry {
             amplitude: Some(EstimateEntry::of(near.torque, names.torque_unit())),
             static_friction: EstimateEntry::or_null(near.static_friction(), names.torque_unit()),
             speed: EstimateEntry::of(near.speed, names.speed_unit()),
-            falloff: FalloffName::of(near.falloff),
+            falloff: near.falloff,
         }
     }
 }
@@ -223,97 +147,6 @@ impl RippleEntry {
             period: EstimateEntry::of(ripple.period(), names.angle()),
             phase: NumberEntry::of(ripple.phase_rad, "rad"),
         }
-    }
-}
-
-impl ArmTermsEntry {
-    pub(super) fn of(terms: &DryTerms) -> Self {
-        Self {
-            near_rest: terms.near_rest.map(|n| ArmNearRestEntry::of(&n)),
-            ripples: terms.ripples.iter().map(ArmRippleEntry::of).collect(),
-            root: terms.root.map(|root| ArmRootEntry { amplitude: root.torque_nm_per_root_rad_s }),
-            with_load: terms.with_load.map(|term| ArmWithLoadEntry {
-                coefficient: term.coefficient,
-                sine: term.load.sine_nm,
-                cosine: term.load.cosine_nm,
-            }),
-        }
-    }
-
-    pub(super) fn dry_terms(&self) -> Result<DryTerms, WrongKey> {
-        let ripples = self.ripples.iter().map(|r| r.ripple("arm.ripples[]"));
-        Ok(DryTerms {
-            root: self.root.as_ref().map(ArmRootEntry::root).transpose()?,
-            with_load: self.with_load.as_ref().map(ArmWithLoadEntry::with_load).transpose()?,
-            near_rest: self.near_rest.as_ref().map(ArmNearRestEntry::near_rest).transpose()?,
-            ripples: ripples.collect::<Result<_, _>>()?,
-        })
-    }
-}
-
-impl ArmNearRestEntry {
-    fn of(n: &NearRest) -> Self {
-        Self { amplitude: n.torque_nm, speed: n.speed_rad_s, falloff: FalloffName::of(n.falloff) }
-    }
-
-    fn near_rest(&self) -> Result<NearRest, WrongKey> {
-        let number = Numbers { at: "arm.near_rest" };
-        Ok(NearRest {
-            offset_nm: 0.0,
-            torque_nm: number.sane("amplitude", self.amplitude)?,
-            speed_rad_s: number.positive("speed", self.speed)?,
-            falloff: self.falloff.falloff(),
-        })
-    }
-}
-
-impl ArmRootEntry {
-    fn root(&self) -> Result<Root, WrongKey> {
-        let number = Numbers { at: "arm.root" };
-        let amplitude = number.sane("amplitude", self.amplitude)?;
-        Ok(Root { torque_nm_per_root_rad_s: amplitude })
-    }
-}
-
-impl ArmWithLoadEntry {
-    fn with_load(&self) -> Result<WithLoad, WrongKey> {
-        let number = Numbers { at: "arm.with_load" };
-        let sine_nm = number.sane("sine", self.sine)?;
-        let cosine_nm = number.sane("cosine", self.cosine)?;
-        let coefficient = number.sane("coefficient", self.coefficient)?;
-        Ok(WithLoad { coefficient, load: GravityLoad { sine_nm, cosine_nm } })
-    }
-}
-
-impl ArmTorqueRippleEntry {
-    pub(super) fn of(r: &TorqueRipple) -> Self {
-        let TorqueRipple { per_rad, cosine_nm, sine_nm } = *r;
-        Self { wave: ArmRippleEntry::of(&Ripple { per_rad, cosine_nm, sine_nm }) }
-    }
-
-    pub(super) fn torque_ripple(&self) -> Result<TorqueRipple, WrongKey> {
-        let wave = self.wave.ripple("arm.torque_ripples[]")?;
-        let Ripple { per_rad, cosine_nm, sine_nm } = wave;
-        Ok(TorqueRipple { per_rad, cosine_nm, sine_nm })
-    }
-}
-
-impl ArmRippleEntry {
-    fn of(r: &Ripple) -> Self {
-        Self { period: TAU / r.per_rad, cosine: r.cosine_nm, sine: r.sine_nm }
-    }
-
-    fn ripple(&self, at: &'static str) -> Result<Ripple, WrongKey> {
-        let number = Numbers { at };
-        let period = number.sane("period", self.period)?;
-        if period < SHORTEST {
-            return Err(number.wrong("period", "1e-6 or more"));
-        }
-        Ok(Ripple {
-            per_rad: TAU / period,
-            cosine_nm: number.sane("cosine", self.cosine)?,
-            sine_nm: number.sane("sine", self.sine)?,
-        })
     }
 }
 
@@ -335,7 +168,7 @@ impl LawTermEntry {
             Self { term: LawTermName::of(term), falloff: None, speed: None, period: None };
         match term {
             LawTerm::NearRest { speed, falloff } => {
-                entry.falloff = Some(FalloffName::of(falloff));
+                entry.falloff = Some(falloff);
                 entry.speed = Some(NumberEntry::of(speed, names.speed_unit()));
             }
             LawTerm::Ripple { per_angle } | LawTerm::TorqueRipple { per_angle } => {
@@ -357,7 +190,7 @@ impl LawTermEntry {
             LawTermName::ViscousByDirection => direction.sign() * speed,
             LawTermName::NearRest => {
                 let both = self.speed.as_ref().zip(self.falloff);
-                both.map_or(0.0, |(fall, of)| of.falloff().share(speed / fall.value))
+                both.map_or(0.0, |(fall, of)| of.share(speed / fall.value))
             }
             LawTermName::Root => speed.sqrt(),
             _ => 0.0,
@@ -368,23 +201,7 @@ impl LawTermEntry {
 impl LawTermName {
     /// Its name as in JSON.
     pub fn name(self) -> &'static str {
-        match self {
-            Self::ViscousByDirection => "viscous-by-direction",
-            Self::NearRest => "near-rest",
-            Self::TorqueRipple => "torque-ripple",
-            Self::Root => "root",
-            Self::WithLoad => "with-load",
-            Self::Ripple => "ripple",
-            Self::CommandLag => "command-lag",
-            Self::Position => "position",
-            Self::Gravity => "gravity",
-            Self::BeamDamping => "beam-damping",
-            Self::CommandBySign => "command-by-sign",
-            Self::WithTorque => "with-torque",
-            Self::OverTravel => "over-travel",
-            Self::CoulombDrift => "coulomb-drift",
-            Self::ViscousDrift => "viscous-drift",
-        }
+        self.into()
     }
 
     fn of_missing(kind: MissingKind) -> Self {

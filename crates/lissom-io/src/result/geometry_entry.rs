@@ -30,7 +30,6 @@ pub struct ExplanationEntry {
     /// Root mean square of the differences with this value.
     pub left_rms: f64,
     /// Whether it explains the differences as well as the first number, or nearly as well.
-    #[serde(default)]
     pub as_good_as_first: bool,
 }
 

@@ -4,29 +4,11 @@ use lissom_core::identify::{
     Identified, LinearModels, ModelSource, Response, ResponsePoint, TipModel,
 };
 use lissom_core::lti::{CoefficientCovariance, TransferFunction};
-use lissom_core::record::{Channels, Tip};
+use lissom_core::record::{Channels, Tip, TipQuantity};
 use serde::{Deserialize, Serialize};
 
-use super::channel_names::TipQuantityName;
 use super::estimate_entry::EstimateEntry;
 use crate::model::StateSpaceEntry;
-
-/// Coefficients in descending powers of s.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
-pub struct TransferFunctionEntry {
-    /// Numerator.
-    pub num: Vec<f64>,
-    /// Denominator.
-    pub den: Vec<f64>,
-}
-
-impl TransferFunctionEntry {
-    /// The entry of a transfer function.
-    pub fn of(g: &TransferFunction) -> Self {
-        Self { num: g.num.clone(), den: g.den.clone() }
-    }
-}
 
 /// Complex values as parallel lists; null for a point without a value.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
@@ -80,7 +62,7 @@ pub struct TipResponseEntry {
     /// Name of the tip.
     pub name: String,
     /// What it measures.
-    pub quantity: TipQuantityName,
+    pub quantity: TipQuantity,
 }
 
 impl FrequencyResponseEntry {
@@ -90,7 +72,7 @@ impl FrequencyResponseEntry {
         let tip = |(i, tip): (usize, &Tip)| TipResponseEntry {
             series: SeriesEntry::of(points, |p| p.tips.get(i).copied().flatten()),
             name: tip.name.clone(),
-            quantity: TipQuantityName::of(tip.quantity),
+            quantity: tip.quantity,
         };
         let run = |p: &ResponsePoint| p.run.map(|r| id.runs[r].name.clone());
         Self {
@@ -110,9 +92,9 @@ impl FrequencyResponseEntry {
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct LinearModelEntries {
     /// Origin of the models.
-    pub from: ModelSourceName,
+    pub from: ModelSource,
     /// Motor angle per command, without friction and without `motor_delay_s`.
-    pub motor: Option<TransferFunctionEntry>,
+    pub motor: Option<TransferFunction>,
     /// Time by which the command acts later than it is logged; null if the data show no delay.
     pub motor_delay_s: Option<EstimateEntry>,
     /// Covariance matrix of `motor` and `motor_delay_s`, see `covariance` of a tip.
@@ -122,17 +104,6 @@ pub struct LinearModelEntries {
     pub tips: Vec<TipModelEntry>,
     /// State space from the command to the motor and each tip that is an angle.
     pub state_space: Option<StateSpaceEntry>,
-}
-
-/// Origin of linear models.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
-#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
-#[serde(rename_all = "snake_case")]
-pub enum ModelSourceName {
-    /// The arm under `arm`.
-    Arm,
-    /// Fits to the responses, or the estimates of the regressions, with damping of the beam against the frame.
-    Responses,
 }
 
 /// Response of a tip per motor angle as a transfer function.
@@ -170,11 +141,8 @@ impl LinearModelEntries {
             covariance: covariance_rows(model.covariance.as_ref()),
         };
         Self {
-            from: match models.source {
-                ModelSource::Arm => ModelSourceName::Arm,
-                ModelSource::Responses => ModelSourceName::Responses,
-            },
-            motor: models.motor.as_ref().map(TransferFunctionEntry::of),
+            from: models.source,
+            motor: models.motor.clone(),
             motor_delay_s: EstimateEntry::or_null(models.motor_delay, "s"),
             motor_covariance: covariance_rows(models.motor_covariance.as_ref()),
             tips: channels.tips.iter().zip(&models.tips).map(tip).collect(),

@@ -4,6 +4,7 @@ use lissom_core::identify::{
     BeamRegression, Candidate, DriveEstimates, Friction, HiddenMode, Identified, LeastSquares,
     MotorFit, MotorRegression, ThirdHarmonic,
 };
+use lissom_core::lti::TransferFunction;
 use lissom_core::record::Channels;
 use serde::{Deserialize, Serialize};
 
@@ -12,7 +13,6 @@ use super::estimate_entry::{BeamModeEntry, EstimateEntry, NumberEntry, finite};
 use super::friction_entry::CoulombEntry;
 use super::friction_law_entry::FrictionLawEntry;
 use super::gravity_entry::GravityEntry;
-use super::linear_model_entries::TransferFunctionEntry;
 use super::output_error_entry::OutputErrorEntry;
 use super::unit_names::UnitNames;
 
@@ -77,7 +77,7 @@ pub struct MotorFitEntry {
     /// Coupling through each mode.
     pub coupling_by_mode: Vec<EstimateEntry>,
     /// Motor angle per command as (35).
-    pub motor: TransferFunctionEntry,
+    pub motor: TransferFunction,
     /// Root mean square of the residuals relative to the standard errors of the response.
     pub weighted_rms: f64,
 }
@@ -244,7 +244,7 @@ impl MotorFitEntry {
             inertia: EstimateEntry::of(m.inertia, names.inertia_unit()),
             viscous: EstimateEntry::of(m.viscous, names.viscous_unit()),
             coupling_by_mode: EstimateEntry::list(&m.coupling, names.coupling_unit()),
-            motor: TransferFunctionEntry::of(&m.transfer_function),
+            motor: m.transfer_function.clone(),
             weighted_rms: m.weighted_rms,
         }
     }

@@ -6,7 +6,6 @@
 //! `{value, std, ci95, unit}`, or `null` if it is refused; a finding then gives the reason.
 
 mod arm_entry;
-mod arm_numbers;
 mod channel_names;
 mod compare_results;
 mod compared_file;
@@ -23,9 +22,9 @@ mod gravity_entry;
 mod linear_model_entries;
 mod method_entries;
 mod output_error_entry;
+mod parameter_list;
 mod payload_file;
 mod read_arm;
-mod read_result;
 pub(crate) mod result_error;
 mod result_file;
 mod separability_entry;
@@ -33,11 +32,8 @@ pub mod thresholds_file;
 mod unit_names;
 mod validation_file;
 
-pub use arm_entry::{ArmEntry, ArmGravityEntry, ArmTipEntry, OscillatorEntry};
-pub use channel_names::{
-    ArmSourceName, AxisName, CommandUnitName, DirectionName, FalloffName, MethodName,
-    TipQuantityName,
-};
+pub use arm_entry::{ArmEntry, ArmTipEntry};
+pub use channel_names::{CommandUnitName, DirectionName};
 pub use compare_results::{CLEAR_STANDARD_ERRORS, ComparisonError};
 pub use compared_file::{
     ComparedFile, ComparedParameterEntry, ComparedResultEntry, ParameterDifferenceEntry,
@@ -47,49 +43,44 @@ pub use constant_velocity_entry::{
 };
 pub use equivalent_file::{
     EquivalentBeamEntry, EquivalentEntry, EquivalentFile, EquivalentModeEntry,
-    EquivalentTorqueEntry, PointZerosEntry, ResponseZeroEntry, SpuriousName, SpuriousPoleEntry,
-    StdSourceName, StrainlessEntry,
+    EquivalentTorqueEntry, PointZerosEntry, ResponseZeroEntry, SpuriousPoleEntry, StrainlessEntry,
 };
 pub(crate) use estimate_entry::finite;
 pub use estimate_entry::{BeamModeEntry, EstimateEntry, NumberEntry};
-pub use finding_entry::{FindingEntry, SeverityName};
+pub use finding_entry::FindingEntry;
 pub use friction_entry::{CoulombEntry, CurvePointEntry, FrictionEntry, LawEntry};
 pub use friction_law_entry::{
     ChosenLawEntry, ChosenTermEntry, FrictionLawEntry, LawCandidateEntry, LawResidualEntry,
 };
 pub use friction_term_entries::{
-    ArmNearRestEntry, ArmRippleEntry, ArmTermsEntry, FrictionTermsEntry, LawTermEntry, LawTermName,
-    NearRestEntry, RippleEntry,
+    FrictionTermsEntry, LawTermEntry, LawTermName, NearRestEntry, RippleEntry,
 };
 pub use geometry_entry::{ArmQuantityName, ExplanationEntry, GeometryEntry};
 pub use gravity_entry::GravityEntry;
 pub use linear_model_entries::{
-    FrequencyResponseEntry, LinearModelEntries, ModelSourceName, SeriesEntry, TipModelEntry,
-    TipResponseEntry, TransferFunctionEntry,
+    FrequencyResponseEntry, LinearModelEntries, SeriesEntry, TipModelEntry, TipResponseEntry,
 };
 pub use method_entries::{
     BeamRegressionEntry, HiddenModeEntry, LeastSquaresEntry, MethodEntries, MotorFitEntry,
     RegressionEntry, SinePairEntry, ThirdHarmonicEntry, WindowEntry,
 };
-pub use output_error_entry::{ExtensionEntry, OutputErrorEntry, StageEntry, StopName};
+pub use output_error_entry::{ExtensionEntry, OutputErrorEntry, StageEntry};
+pub use parameter_list::{ListedParameter, PHASE_KEY, ParameterList};
 pub use payload_file::{
     PayloadEntry, PayloadFile, PayloadPrediction, PredictedPayload, ResponseEntry,
 };
 pub use read_arm::{arm_of_text, read_arm};
-pub use read_result::{ListedParameter, PHASE_KEY, ParameterList, read_result};
 pub use result_error::ResultError;
 pub use result_file::{
     BeamEntry, DriveEntry, HarmonicsEntry, ResultFile, RunEntry, RunKindName, SinusoidEntry,
-    UnusedTorqueEntry,
 };
 pub use separability_entry::{
     CorrelationEntry, DirectionPartEntry, MotionKindName, ParameterCertaintyEntry,
     PrincipalDirectionEntry, RunEffectEntry, RunShareEntry, RunToAddEntry, SeparabilityEntry,
 };
-pub use thresholds_file::{BasisName, ThresholdEntry, ThresholdsFile};
+pub use thresholds_file::ThresholdsFile;
 pub use unit_names::UnitNames;
 pub use validation_file::{
-    CauseName, ChannelFitEntry, ChannelResidualEntry, ChannelUnitName, HorizonEntry, MotionEntry,
-    MovedByName, MovedModeEntry, ResidualTermEntry, StretchEntry, TorqueEntry, TorqueRunEntry,
-    ValidationFile, channel_name_unit,
+    ChannelFitEntry, ChannelResidualEntry, ChannelUnitName, HorizonEntry, MotionEntry,
+    MovedModeEntry, StretchEntry, TorqueEntry, TorqueRunEntry, ValidationFile, channel_name_unit,
 };

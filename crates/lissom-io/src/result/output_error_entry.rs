@@ -51,28 +51,13 @@ pub struct StageEntry {
     /// Number of accepted steps.
     pub steps_taken: usize,
     /// Why the search ended.
-    pub stop: StopName,
+    pub stop: Stop,
     /// Assumed standard deviation of the noise of each channel, motor first, then tips.
     pub noise_sigma: Vec<f64>,
     /// Assumed step of each sensor; 0 if the step is treated as noise.
     pub noise_step: Vec<f64>,
     /// Standard deviation of the residual of each channel.
     pub residual_std: Vec<f64>,
-}
-
-/// Why a search ended.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
-#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
-#[serde(rename_all = "kebab-case")]
-pub enum StopName {
-    /// The search converged.
-    Converged,
-    /// No step lowers the cost.
-    NoStepHelps,
-    /// All allowed steps were used.
-    StepsUsedUp,
-    /// All allowed evaluations were used.
-    BudgetSpent,
 }
 
 /// A further parameter that was tried.
@@ -120,12 +105,7 @@ impl StageEntry {
             windows: s.windows,
             cost: s.iterations.iter().map(|i| i.cost).collect(),
             steps_taken: s.iterations.iter().filter(|i| i.taken).count(),
-            stop: match s.stop {
-                Stop::Converged => StopName::Converged,
-                Stop::NoStepHelps => StopName::NoStepHelps,
-                Stop::StepsUsedUp => StopName::StepsUsedUp,
-                Stop::BudgetSpent => StopName::BudgetSpent,
-            },
+            stop: s.stop,
             noise_sigma: s.noise.iter().map(|n| n.sigma).collect(),
             noise_step: s.noise.iter().map(|n| n.step).collect(),
             residual_std: s.residual.clone(),

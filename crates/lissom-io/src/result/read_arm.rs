@@ -3,37 +3,24 @@
 use std::path::Path;
 
 use lissom_core::identify::FoundArm;
-use lissom_core::record::Channels;
-use serde::Deserialize;
-use serde_json::Value;
+use lissom_core::record::{Channels, TipQuantity};
 
 use super::arm_entry::ArmEntry;
-use super::channel_names::{AxisName, TipQuantityName};
 use super::result_error::ResultError;
+use super::result_file::ResultFile;
 use super::unit_names::UnitNames;
 use crate::io_error::Error;
-use crate::read_text::read_text;
 
 /// Relative difference above which torque constants differ; one constant may be written with six digits.
 const SAME: f64 = 1e-5;
-
-/// The part of a [`ResultFile`](super::ResultFile) that a prediction needs.
-#[derive(Debug, Deserialize)]
-struct PredictingPart {
-    axis: AxisName,
-    torque_per_command: Option<f64>,
-    arm: Option<ArmEntry>,
-}
 
 /// Reads the arm of a result, to predict logs with these channels.
 ///
 /// # Errors
 /// [`Error::Result`] if the file is not a result, has no arm, or belongs to another drive.
 pub fn read_arm(path: &Path, channels: &Channels) -> Result<FoundArm, Error> {
-    let file = path.display().to_string();
-    let text =
-        read_text(path).map_err(|source| ResultError::Read { file: file.clone(), source })?;
-    Ok(arm_of_text(&file, &text, channels)?)
+    let result = ResultFile::read(path)?;
+    Ok(found_arm(&path.display().to_string(), &result, channels)?)
 }
 
 /// The arm of the text of a `result.json`, which errors call `file`, to predict logs with these channels.
@@ -41,21 +28,18 @@ pub fn read_arm(path: &Path, channels: &Channels) -> Result<FoundArm, Error> {
 /// # Errors
 /// As [`read_arm`].
 pub fn arm_of_text(file: &str, text: &str, channels: &Channels) -> Result<FoundArm, ResultError> {
+    found_arm(file, &ResultFile::of_text(file, text)?, channels)
+}
+
+fn found_arm(
+    file: &str,
+    result: &ResultFile,
+    channels: &Channels,
+) -> Result<FoundArm, ResultError> {
     let file = || file.to_owned();
-    let root: Value = serde_json::from_str(text.trim_start_matches('\u{feff}'))
-        .map_err(|source| ResultError::Json { file: file(), source })?;
-    for key in ["lissom", "axis", "torque_per_command", "arm"] {
-        if root.get(key).is_none() {
-            return Err(ResultError::NoResult { file: file(), key });
-        }
-    }
-    let part: PredictingPart = serde_path_to_error::deserialize(&root).map_err(|error| {
-        let key = error.path().to_string();
-        ResultError::Value { file: file(), key, source: error.into_inner() }
-    })?;
-    same_drive(&part, channels, file)?;
-    let Some(arm) = part.arm else { return Err(ResultError::NoArm { file: file() }) };
-    same_tips(&arm, channels, file)?;
+    same_drive(result, channels, file)?;
+    let Some(arm) = &result.arm else { return Err(ResultError::NoArm { file: file() }) };
+    same_tips(arm, channels, file)?;
     arm.found(UnitNames::new(channels)).map_err(|wrong| ResultError::Key {
         file: file(),
         key: wrong.key,
@@ -65,28 +49,28 @@ pub fn arm_of_text(file: &str, text: &str, channels: &Channels) -> Result<FoundA
 
 /// Checks axis, command and torque constant: if they differ, the result has other units.
 fn same_drive(
-    part: &PredictingPart,
+    result: &ResultFile,
     channels: &Channels,
     file: impl Fn() -> String,
 ) -> Result<(), ResultError> {
-    let axis = AxisName::of(channels.axis);
+    let axis = channels.axis;
     let constant = channels.command.torque_per_command;
     let said = |constant: Option<f64>| match constant {
         Some(k) => format!("with a torque constant of {k} in SI units"),
         None => "without a torque constant".to_owned(),
     };
-    let same = match (part.torque_per_command, constant) {
+    let same = match (result.torque_per_command, constant) {
         (Some(a), Some(b)) => (a - b).abs() <= SAME * b.abs(),
         (None, None) => true,
         _ => false,
     };
-    if part.axis == axis && same {
+    if result.axis == axis && same {
         return Ok(());
     }
     Err(ResultError::OtherDrive {
         file: file(),
-        of_result: format!("a {} axis {}", part.axis.text(), said(part.torque_per_command)),
-        of_log: format!("has a {} axis {}", axis.text(), said(constant)),
+        of_result: format!("a {} axis {}", result.axis.name(), said(result.torque_per_command)),
+        of_log: format!("has a {} axis {}", axis.name(), said(constant)),
     })
 }
 
@@ -96,14 +80,13 @@ fn same_tips(
     file: impl Fn() -> String,
 ) -> Result<(), ResultError> {
     let of_result: Vec<_> = arm.tips.iter().map(|tip| tip.quantity).collect();
-    let of_log: Vec<_> =
-        channels.tips.iter().map(|tip| TipQuantityName::of(tip.quantity)).collect();
+    let of_log: Vec<_> = channels.tips.iter().map(|tip| tip.quantity).collect();
     if of_result == of_log {
         return Ok(());
     }
-    let told = |list: &[TipQuantityName]| match list {
+    let told = |list: &[TipQuantity]| match list {
         [] => "none".to_owned(),
-        list => list.iter().map(|quantity| quantity.text()).collect::<Vec<_>>().join(", "),
+        list => list.iter().map(|quantity| quantity.name()).collect::<Vec<_>>().join(", "),
     };
     Err(ResultError::OtherTips { file: file(), of_result: told(&of_result), of_log: told(&of_log) })
 }

@@ -2,14 +2,16 @@
 
 use std::path::Path;
 
-use lissom_core::identify::{GeometryCheck, Identified, RunAnalysis, RunKind, UnusedTorque};
-use lissom_core::record::Channels;
+use lissom_core::identify::{
+    GeometryCheck, Identified, Method, RunAnalysis, RunKind, UnusedTorque,
+};
+use lissom_core::record::{Axis, Channels};
 use lissom_core::spectrum::Harmonics;
 use serde::{Deserialize, Serialize};
 use serde_json::Value;
 
 use super::arm_entry::ArmEntry;
-use super::channel_names::{AxisName, CommandUnitName, MethodName};
+use super::channel_names::CommandUnitName;
 use super::equivalent_file::EquivalentEntry;
 use super::estimate_entry::{BeamModeEntry, EstimateEntry, NumberEntry};
 use super::finding_entry::FindingEntry;
@@ -32,18 +34,18 @@ pub struct ResultFile {
     /// Version of lissom that wrote the file.
     pub lissom: String,
     /// Kind of axis.
-    pub axis: AxisName,
+    pub axis: Axis,
     /// Torque constant used, N*m or N per unit of command; null if it is unknown.
     pub torque_per_command: Option<f64>,
     /// Unit of the command.
     pub command_unit: CommandUnitName,
     /// The method that gave friction, inertia and coupling, all of them together; null if none has a solution.
-    pub from: Option<MethodName>,
+    pub from: Option<Method>,
     /// Friction from this method.
     pub friction: FrictionEntry,
     /// What remains of the torque in slip phases that were left out of the fit; null if the solution is not from slip phases or
     /// of a rigid arm.
-    pub unused_torque: Option<UnusedTorqueEntry>,
+    pub unused_torque: Option<UnusedTorque>,
     /// The drive.
     pub drive: DriveEntry,
     /// Gravity of an unbalanced load; null unless the campaign asks for it and the data determine it.
@@ -71,16 +73,6 @@ pub struct ResultFile {
     pub runs: Vec<RunEntry>,
     /// What the data do not determine, and what to know about the estimates.
     pub findings: Vec<FindingEntry>,
-}
-
-/// Rms of what remains of the torque in slip phases that were left out of the fit, as a share of it.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
-pub struct UnusedTorqueEntry {
-    /// With inertia, Coulomb friction, one viscous constant and an offset, and coupling or gravity where it is known.
-    pub line: f64,
-    /// With the model of this result.
-    pub model: f64,
 }
 
 /// The drive.
@@ -154,10 +146,8 @@ pub struct SinusoidEntry {
     /// Amplitude of the motor's motion, that of its first harmonic.
     pub amplitude: NumberEntry,
     /// Harmonics of the command.
-    #[serde(default)]
     pub command_harmonics: HarmonicsEntry,
     /// Harmonics of the motor's motion.
-    #[serde(default)]
     pub motor_harmonics: HarmonicsEntry,
 }
 
@@ -191,9 +181,18 @@ impl ResultFile {
         let file = || file.to_owned();
         let root: Value = serde_json::from_str(text.trim_start_matches('\u{feff}'))
             .map_err(|source| ResultError::Json { file: file(), source })?;
-        for key in
-            ["lissom", "axis", "command_unit", "friction", "drive", "beam", "runs", "findings"]
-        {
+        for key in [
+            "lissom",
+            "axis",
+            "torque_per_command",
+            "command_unit",
+            "friction",
+            "drive",
+            "beam",
+            "arm",
+            "runs",
+            "findings",
+        ] {
             if root.get(key).is_none() {
                 return Err(ResultError::NoResult { file: file(), key });
             }
@@ -215,14 +214,12 @@ impl ResultFile {
         let separability = id.separability.as_ref();
         Self {
             lissom: env!("CARGO_PKG_VERSION").to_owned(),
-            axis: AxisName::of(channels.axis),
+            axis: channels.axis,
             torque_per_command: id.torque_per_command,
             command_unit: CommandUnitName::of(channels.command.quantity, channels.axis),
-            from: id.method.and_then(MethodName::of),
+            from: id.method,
             friction: FrictionEntry::of(names, id),
-            unused_torque: id
-                .unused_torque
-                .map(|UnusedTorque { line, model }| UnusedTorqueEntry { line, model }),
+            unused_torque: id.unused_torque,
             drive: DriveEntry { inertia: EstimateEntry::or_null(id.inertia, names.inertia_unit()) },
             gravity: id.gravity.as_ref().map(|g| GravityEntry::of(names, g, id.torque_constant)),
             beam: BeamEntry::of(names, id),

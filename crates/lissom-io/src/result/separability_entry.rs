@@ -1,12 +1,11 @@
 //! The verdict in JSON: which parameters the logs identify.
 
-use lissom_core::identify::{Direction, RunShare, RunToAdd, Separability};
+use lissom_core::identify::{ArmSource, Direction, RunShare, RunToAdd, Separability};
 use lissom_core::information::ArmParameter;
 use lissom_core::plan::PlannedMotion;
 use lissom_core::record::Axis;
 use serde::{Deserialize, Serialize};
 
-use super::channel_names::ArmSourceName;
 use super::estimate_entry::{NumberEntry, finite};
 use super::finding_keys::{COULOMB, COUPLING, INERTIA, OFFSET, VISCOUS};
 use super::unit_names::UnitNames;
@@ -19,7 +18,7 @@ pub struct SeparabilityEntry {
     /// The verdict in words.
     pub words: Vec<String>,
     /// The method that gave the covariance.
-    pub source: ArmSourceName,
+    pub source: ArmSource,
     /// Correlation of the estimates: times both standard errors it is their covariance.
     pub correlation: CorrelationEntry,
     /// Condition number of the correlation matrix; null if some parameters cannot be separated.
@@ -47,11 +46,6 @@ pub struct CorrelationEntry {
     pub matrix: Vec<Vec<Option<f64>>>,
 }
 
-/// Results of earlier versions do not say it.
-fn yes() -> bool {
-    true
-}
-
 /// The certainty of a parameter.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
@@ -59,7 +53,6 @@ pub struct ParameterCertaintyEntry {
     /// Name of the parameter.
     pub parameter: String,
     /// Whether the estimate is given; false if a finding refuses it.
-    #[serde(default = "yes")]
     pub given: bool,
     /// Its relative standard error; null if the logs do not separate it from other parameters.
     pub relative_std: Option<f64>,
@@ -163,7 +156,7 @@ impl SeparabilityEntry {
         });
         Self {
             words: found.words(axis),
-            source: ArmSourceName::of(found.source),
+            source: found.source,
             correlation: CorrelationEntry::of(found),
             condition: finite(found.condition),
             parameters: known.collect(),

@@ -1,14 +1,14 @@
 //! How well a result predicts another log, in JSON.
 
 use lissom_core::identify::{
-    Cause, CauseKind, ChannelResidual, FoundArm, Horizon, MovedBy, MovedMode, TorquePrediction,
-    TorqueStretch, Validation,
+    Cause, ChannelResidual, FoundArm, Horizon, MovedBy, MovedMode, TorquePrediction, TorqueStretch,
+    Validation,
 };
 use lissom_core::record::{Axis, Campaign, Channels, TipQuantity};
 use serde::{Deserialize, Serialize};
 
 use super::arm_entry::ArmEntry;
-use super::channel_names::{AxisName, DirectionName};
+use super::channel_names::DirectionName;
 use super::estimate_entry::NumberEntry;
 use super::finding_entry::FindingEntry;
 use super::unit_names::UnitNames;
@@ -20,7 +20,7 @@ pub struct ValidationFile {
     /// Version of lissom that wrote the file.
     pub lissom: String,
     /// Kind of axis.
-    pub axis: AxisName,
+    pub axis: Axis,
     /// The arm of the result.
     pub arm: ArmEntry,
     /// Torque (or force) that the estimates predict from the logged motion, compared with the logged one; null if the
@@ -62,7 +62,7 @@ pub struct TorqueEntry {
     /// Each stretch in which the motor moves in one direction for three windows or longer.
     pub stretches: Vec<StretchEntry>,
     /// Terms that the residual resembles, the one with the largest share first.
-    pub residual_terms: Vec<ResidualTermEntry>,
+    pub residual_terms: Vec<Cause>,
 }
 
 /// The torque of a run.
@@ -89,47 +89,6 @@ pub struct StretchEntry {
     pub direction: DirectionName,
     /// Root mean square of the residual relative to that of the torque of the whole log.
     pub relative_error: f64,
-}
-
-/// A term that the residual resembles.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
-pub struct ResidualTermEntry {
-    /// The term.
-    pub term: CauseName,
-    /// Its coefficient in SI units (s, or the unit of the parameter), to be added to the estimate; for the coupling
-    /// relative to its estimate.
-    pub value: f64,
-    /// Share of the squared residual that the term alone explains.
-    pub share: f64,
-    /// The coefficient from the same computation with a simulation of the arm, in the unit of value; 0 if the
-    /// simulation does not follow the log.
-    pub expected_value: f64,
-}
-
-/// A term that a residual may resemble.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
-#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
-#[serde(rename_all = "kebab-case")]
-pub enum CauseName {
-    /// A delay between command and motion.
-    Delay,
-    /// Another inertia.
-    Inertia,
-    /// Another viscous friction.
-    Viscous,
-    /// Viscous friction that differs by direction.
-    ViscousByDirection,
-    /// Another Coulomb friction.
-    Coulomb,
-    /// A constant torque.
-    Offset,
-    /// A torque that grows with the angle.
-    Position,
-    /// Friction near rest.
-    NearRest,
-    /// Another coupling torque.
-    Coupling,
 }
 
 /// Motion predicted from the logged command.
@@ -201,24 +160,13 @@ pub struct MovedModeEntry {
     /// Number of the mode, from 1.
     pub mode: usize,
     /// Cause of the change.
-    pub by: MovedByName,
+    pub by: MovedBy,
     /// Its frequency in the result.
     pub natural_frequency_rad_s: f64,
     /// Its frequency that fits the log best.
     pub of_log_rad_s: f64,
     /// Squared residual of all channels relative to that of the result's arm.
     pub residual_ratio: f64,
-}
-
-/// Cause of a change of a mode's frequency.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
-#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
-#[serde(rename_all = "snake_case")]
-pub enum MovedByName {
-    /// A load: the stiffness of the mode stays the same.
-    Load,
-    /// The stiffness: it changes with the square of the frequency.
-    Stiffness,
 }
 
 /// The residual of a channel.
@@ -229,28 +177,11 @@ pub struct ChannelResidualEntry {
     pub channel: String,
     /// Its unit.
     pub unit: ChannelUnitName,
-    /// Number of samples tested.
-    pub samples: usize,
-    /// Root mean square.
-    pub rms: f64,
-    /// Step of the sensor; 0 if no step is visible. The step alone gives a residual of step/sqrt(12).
-    pub sensor_step: f64,
-    /// Standard deviation of the sensor's noise, including its steps.
-    pub sensor_noise: f64,
-    /// Autocorrelation, lags 0 to 25.
-    pub autocorrelation: Vec<f64>,
-    /// Half of the 95 % band of white noise.
-    pub autocorrelation_band: f64,
-    /// Ljung-Box statistic of lags 1 to 25.
-    pub ljung_box: f64,
-    /// Probability that white noise has a statistic at least as large.
-    pub white_probability: f64,
+    /// Its tests.
+    #[serde(flatten)]
+    pub tests: ChannelResidual,
     /// Lags of the residual behind the command, in samples.
     pub lags: Vec<isize>,
-    /// Correlation with the command at these lags.
-    pub cross_correlation: Vec<f64>,
-    /// Half of the 95 % band for independent residual and command.
-    pub cross_correlation_band: f64,
     /// Share of these lags outside the band.
     pub outside_share: f64,
 }
@@ -263,7 +194,7 @@ impl ValidationFile {
         let residual = |(c, r)| ChannelResidualEntry::of(channels, c, r);
         Self {
             lissom: env!("CARGO_PKG_VERSION").to_owned(),
-            axis: AxisName::of(channels.axis),
+            axis: channels.axis,
             arm: ArmEntry::of(channels, names, found),
             torque: v.torque.as_ref().map(|t| TorqueEntry::of(campaign, names, found, t)),
             motion: MotionEntry {
@@ -303,28 +234,7 @@ impl TorqueEntry {
             rest_share: t.rest_share,
             runs: runs.collect(),
             stretches: t.stretches.iter().map(stretch).collect(),
-            residual_terms: t.causes.iter().map(ResidualTermEntry::of).collect(),
-        }
-    }
-}
-
-impl ResidualTermEntry {
-    fn of(c: &Cause) -> Self {
-        Self {
-            term: match c.kind {
-                CauseKind::Delay => CauseName::Delay,
-                CauseKind::Inertia => CauseName::Inertia,
-                CauseKind::Viscous => CauseName::Viscous,
-                CauseKind::ViscousByDirection => CauseName::ViscousByDirection,
-                CauseKind::Coulomb => CauseName::Coulomb,
-                CauseKind::Offset => CauseName::Offset,
-                CauseKind::Position => CauseName::Position,
-                CauseKind::NearRest => CauseName::NearRest,
-                CauseKind::Coupling => CauseName::Coupling,
-            },
-            value: c.value,
-            share: c.share,
-            expected_value: c.expected_value,
+            residual_terms: t.causes.clone(),
         }
     }
 }
@@ -333,10 +243,7 @@ impl MovedModeEntry {
     fn of(m: &MovedMode) -> Self {
         Self {
             mode: m.mode + 1,
-            by: match m.by {
-                MovedBy::Load => MovedByName::Load,
-                MovedBy::Stiffness => MovedByName::Stiffness,
-            },
+            by: m.by,
             natural_frequency_rad_s: m.omega_rad_s,
             of_log_rad_s: m.of_log_rad_s,
             residual_ratio: m.residual_ratio,
@@ -366,17 +273,8 @@ impl ChannelResidualEntry {
         Self {
             channel: channel_name_unit(channels, channel).0.to_owned(),
             unit: ChannelUnitName::of(channels, channel),
-            samples: r.samples,
-            rms: r.rms,
-            sensor_step: r.sensor_step,
-            sensor_noise: r.sensor_noise,
-            autocorrelation: r.autocorrelation.clone(),
-            autocorrelation_band: r.autocorrelation_band,
-            ljung_box: r.ljung_box,
-            white_probability: r.white_probability,
+            tests: r.clone(),
             lags: r.lags(),
-            cross_correlation: r.cross_correlation.clone(),
-            cross_correlation_band: r.cross_correlation_band,
             outside_share: r.outside(),
         }
     }

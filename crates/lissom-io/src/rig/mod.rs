@@ -6,4 +6,4 @@ mod rig_file;
 mod rig_run_entry;
 
 pub use rig_file::{RigFile, RigGravityEntry, RigTruthEntry};
-pub use rig_run_entry::{RigFindingEntry, RigFindingName, RigRunEntry};
+pub use rig_run_entry::{RigFindingEntry, RigRunEntry};

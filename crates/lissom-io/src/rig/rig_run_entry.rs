@@ -37,28 +37,9 @@ pub struct RigRunEntry {
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct RigFindingEntry {
     /// What the finding is about; the page plan.toml in the book lists all codes.
-    pub code: RigFindingName,
+    pub code: String,
     /// The finding in words, with numbers.
     pub message: String,
-}
-
-/// What a finding about a simulated run is about.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
-#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
-#[serde(rename_all = "snake_case")]
-pub enum RigFindingName {
-    /// The log began before the transient had decayed.
-    NotSettled,
-    /// The amplifier or its converter limited the current.
-    CurrentLimited,
-    /// Friction held the joint throughout the record.
-    NeverMoved,
-    /// An angle exceeded the range of its sensor.
-    SensorRange,
-    /// The controller also acts between two rows of the log.
-    CurrentBetweenSamples,
-    /// A finding without a code of its own.
-    Other,
 }
 
 impl RigRunEntry {
@@ -81,19 +62,6 @@ impl RigRunEntry {
 
 impl RigFindingEntry {
     fn of(finding: &RigFinding) -> Self {
-        Self { code: RigFindingName::of(finding), message: finding.to_string() }
-    }
-}
-
-impl RigFindingName {
-    fn of(finding: &RigFinding) -> Self {
-        match finding {
-            RigFinding::NotSettled { .. } => Self::NotSettled,
-            RigFinding::CurrentLimited { .. } => Self::CurrentLimited,
-            RigFinding::NeverMoved { .. } => Self::NeverMoved,
-            RigFinding::SensorRange { .. } => Self::SensorRange,
-            RigFinding::CurrentBetweenSamples { .. } => Self::CurrentBetweenSamples,
-            _ => Self::Other,
-        }
+        Self { code: finding.code().to_owned(), message: finding.to_string() }
     }
 }

@@ -10,6 +10,9 @@ use crate::identify::responses::rational::{MotorData, SharedPoles, Spurious};
 
 /// Origin of the standard errors of responses.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(rename_all = "snake_case"))]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub enum StdSource {
     /// Measured.
     Measured,

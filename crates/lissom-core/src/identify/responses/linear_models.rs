@@ -14,6 +14,9 @@ use crate::replay::{ModalArm, Parameter};
 
 /// Origin of linear models.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(rename_all = "snake_case"))]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub enum ModelSource {
     /// The identified arm of the output-error method, with all kinds of damping that it has.
     Arm,

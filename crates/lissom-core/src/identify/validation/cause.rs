@@ -1,11 +1,16 @@
 //! What a residual of torque looks like: how much of it each term would take away by itself.
 #![expect(clippy::inline_always, reason = "compiled for wide registers as one")]
+use strum::IntoStaticStr;
 
 use crate::identify::validation::kernel::Kernel;
 use crate::record::Run;
 
 /// What may be wrong or missing.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, IntoStaticStr)]
+#[strum(serialize_all = "kebab-case")]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(rename_all = "kebab-case"))]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub enum CauseKind {
     /// The command acts later than in the result.
     Delay,
@@ -42,8 +47,11 @@ const KINDS: [CauseKind; 9] = [
 
 /// One term beside the residual.
 #[derive(Debug, Clone, Copy, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct Cause {
     /// Which.
+    #[cfg_attr(feature = "serde", serde(rename = "term"))]
     pub kind: CauseKind,
     /// Its coefficient: delay \[s\], inertia \[kg·m²\], viscous friction \[N·m·s/rad\], torque \[N·m\],
     /// torque per angle \[N·m/rad\], to be added to the estimate; of coupling the share of it to be added.
@@ -68,17 +76,7 @@ impl Cause {
 impl CauseKind {
     /// Its stable name.
     pub fn name(self) -> &'static str {
-        match self {
-            Self::Delay => "delay",
-            Self::Inertia => "inertia",
-            Self::Viscous => "viscous",
-            Self::ViscousByDirection => "viscous-by-direction",
-            Self::Coulomb => "coulomb",
-            Self::Offset => "offset",
-            Self::Position => "position",
-            Self::NearRest => "near-rest",
-            Self::Coupling => "coupling",
-        }
+        self.into()
     }
 
     /// In words.

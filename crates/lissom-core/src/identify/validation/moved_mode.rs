@@ -19,6 +19,9 @@ const STILL: f64 = 0.01;
 
 /// What changes together with the frequency of a mode.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(rename_all = "snake_case"))]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub enum MovedBy {
     /// Only the frequency: another load; the stiffness of the mode is unchanged.
     Load,

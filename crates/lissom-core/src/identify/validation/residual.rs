@@ -30,6 +30,8 @@ const COLOUR_SHARE: usize = 4;
 /// # Source
 /// `[LjungBox1978]` for Q; `[Ljung1999, Section 16.6]` for both tests and the band of c_k.
 #[derive(Debug, Clone, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct ChannelResidual {
     /// Number of samples N.
     pub samples: usize,

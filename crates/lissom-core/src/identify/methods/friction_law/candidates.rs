@@ -1,5 +1,7 @@
 //! Terms that a model of the torque may have beyond the line, and their regressors.
 
+use strum::IntoStaticStr;
+
 use crate::drive::Falloff;
 use crate::identify::methods::friction_law::blocks::{Acts, Regressor};
 use crate::identify::methods::friction_law::law_term::{Column, LawTerm};
@@ -12,7 +14,8 @@ use crate::record::Axis;
 const NEAR_REST: [f64; 8] = [0.02, 0.03, 0.05, 0.08, 0.12, 0.2, 0.3, NEAR_REST_MOST];
 
 /// An effect that a model of the torque does not contain: it is reported, with what it does to the estimates.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, IntoStaticStr)]
+#[strum(serialize_all = "kebab-case")]
 pub enum MissingKind {
     /// A torque in proportion to position: gravity, a spring, coarse cogging, or a tip sensor with a wrong scale.
     Position,
@@ -62,16 +65,7 @@ impl ModelTerm {
 impl MissingKind {
     /// Name in results.
     pub fn name(self) -> &'static str {
-        match self {
-            Self::Position => "position",
-            Self::Gravity => "gravity",
-            Self::BeamDamping => "beam-damping",
-            Self::CommandBySign => "command-by-sign",
-            Self::WithTorque => "with-torque",
-            Self::OverTravel => "over-travel",
-            Self::CoulombDrift => "coulomb-drift",
-            Self::ViscousDrift => "viscous-drift",
-        }
+        self.into()
     }
 }
 

@@ -1,5 +1,7 @@
 //! A term of a friction law: its name, its function, and how it is represented in an arm.
 
+use strum::IntoStaticStr;
+
 use crate::drive::Falloff;
 use crate::friction::{Root, WithLoad};
 use crate::load::GravityLoad;
@@ -10,7 +12,8 @@ pub(crate) const NEAR_REST_STEP: f64 = 0.05;
 
 /// A term of a friction law in addition to Coulomb friction, one viscous constant and an offset. s = ±1 is the
 /// direction of motion, v the velocity and θ the angle.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, IntoStaticStr)]
+#[strum(serialize_all = "kebab-case")]
 pub enum LawTerm {
     /// `s·D·v`: viscous friction is V + D forward and V − D backward.
     ViscousByDirection,
@@ -160,15 +163,7 @@ impl LawTerm {
 
     /// Name in results.
     pub fn name(self) -> &'static str {
-        match self {
-            Self::ViscousByDirection => "viscous-by-direction",
-            Self::NearRest { .. } => "near-rest",
-            Self::Root => "root",
-            Self::WithLoad { .. } => "with-load",
-            Self::Ripple { .. } => "ripple",
-            Self::TorqueRipple { .. } => "torque-ripple",
-            Self::CommandLag => "command-lag",
-        }
+        self.into()
     }
 
     /// Friction against the motion at a speed in a direction (+1 or −1), where its amplitude is `amplitude`; of what is

@@ -14,6 +14,8 @@ use crate::replay::ModalArm;
 
 /// Rms of what remains of the torque in windows of slip phases that were left out of the fit, as a share of it.
 #[derive(Debug, Clone, Copy, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct UnusedTorque {
     /// With the line: inertia, Coulomb friction, one viscous constant, an offset, couplings, and gravity if it is declared \[1\].
     pub line: f64,

@@ -22,6 +22,9 @@ const NEAR: f64 = 0.02;
 
 /// Reason why a pole is not a mode of the beam: it improves the model at the edges of the range, or stands for noise.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(rename_all = "snake_case"))]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub enum Spurious {
     /// It is outside the measured frequencies.
     Outside,

@@ -69,6 +69,9 @@ fn weight(sums: &WindowSums, usual: f64) -> f64 {
 
 /// Why a search ended.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(rename_all = "kebab-case"))]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub enum Stop {
     /// A further step is expected to lower the cost by too little: compared with the noise, or compared with the cost
     /// itself if other stages follow or the residual is far above the noise.

@@ -1,22 +1,13 @@
-//! Reads the parameters of a `result.json`.
+//! The parameters of a result as a list.
 
-use std::path::Path;
+use lissom_core::identify::{Method, Severity};
 
-use serde::Deserialize;
-use serde_json::Value;
-
-use super::channel_names::{AxisName, CommandUnitName, MethodName};
 use super::estimate_entry::EstimateEntry;
-use super::finding_entry::{FindingEntry, SeverityName};
+use super::finding_entry::FindingEntry;
 use super::finding_keys::{COULOMB, COUPLING, GRAVITY, INERTIA, MODES, OFFSET, VISCOUS};
-use super::friction_entry::FrictionEntry;
 use super::friction_term_entries::LawTermName;
-use super::gravity_entry::GravityEntry;
-use super::result_error::ResultError;
-use super::result_file::{BeamEntry, DriveEntry, ResultFile};
+use super::result_file::ResultFile;
 use super::unit_names::UnitNames;
-use crate::io_error::Error;
-use crate::read_text::read_text;
 
 /// A result as a list of parameters.
 #[derive(Debug, Clone, PartialEq)]
@@ -24,7 +15,7 @@ pub struct ParameterList {
     /// Its units.
     pub names: UnitNames,
     /// The method that gave friction, inertia and coupling.
-    pub from: Option<MethodName>,
+    pub from: Option<Method>,
     /// Torque constant used, N·m or N per unit of command; `None` if it is unknown.
     pub torque_per_command: Option<f64>,
     /// Terms of the friction law in addition to Coulomb friction and one viscous coefficient.
@@ -50,119 +41,44 @@ pub struct ListedParameter {
     pub warnings: Vec<String>,
 }
 
-/// The part of a [`ResultFile`](super::ResultFile) that a list of parameters needs. Results of other versions can be
-/// read as long as this part is the same.
-#[derive(Debug, Deserialize)]
-struct ParameterPart {
-    axis: AxisName,
-    torque_per_command: Option<f64>,
-    command_unit: CommandUnitName,
-    #[serde(default)]
-    from: Option<MethodName>,
-    friction: FrictionEntry,
-    drive: DriveEntry,
-    #[serde(default)]
-    gravity: Option<GravityEntry>,
-    beam: BeamEntry,
-    findings: Vec<FindingEntry>,
-}
-
-/// Reads the parameters of a result.
-///
-/// # Errors
-/// [`Error::Result`] if the file cannot be read or is not a result.
-pub fn read_result(path: &Path) -> Result<ParameterList, Error> {
-    let file = path.display().to_string();
-    let text =
-        read_text(path).map_err(|source| ResultError::Read { file: file.clone(), source })?;
-    Ok(ParameterList::of_text(&file, &text)?)
-}
-
 impl ParameterList {
-    /// The parameters of the text of a `result.json`, which errors call `file`.
-    ///
-    /// # Errors
-    /// [`ResultError`] if the text is not a result.
-    pub fn of_text(file: &str, text: &str) -> Result<Self, ResultError> {
-        let file = || file.to_owned();
-        let root: Value = serde_json::from_str(text.trim_start_matches('\u{feff}'))
-            .map_err(|source| ResultError::Json { file: file(), source })?;
-        for key in [
-            "lissom",
-            "axis",
-            "torque_per_command",
-            "command_unit",
-            "friction",
-            "drive",
-            "beam",
-            "runs",
-            "findings",
-        ] {
-            if root.get(key).is_none() {
-                return Err(ResultError::NoResult { file: file(), key });
-            }
-        }
-        let part: ParameterPart = serde_path_to_error::deserialize(&root).map_err(|error| {
-            let key = error.path().to_string();
-            ResultError::Value { file: file(), key, source: error.into_inner() }
-        })?;
-        Ok(part.list())
-    }
-
     /// The parameters of a result.
     pub fn of(result: &ResultFile) -> Self {
-        let part = ParameterPart {
-            axis: result.axis,
-            torque_per_command: result.torque_per_command,
-            command_unit: result.command_unit,
+        let names = result.names();
+        Self {
+            names,
             from: result.from,
-            friction: result.friction.clone(),
-            drive: result.drive.clone(),
-            gravity: result.gravity.clone(),
-            beam: result.beam.clone(),
-            findings: result.findings.clone(),
-        };
-        part.list()
+            torque_per_command: result.torque_per_command,
+            friction_terms: friction_terms(result),
+            modes: result.beam.modes.len(),
+            parameters: Listing::of(names, result),
+        }
     }
 }
 
-impl ParameterPart {
-    fn list(&self) -> ParameterList {
-        let names = self.command_unit.names(self.axis, self.torque_per_command);
-        ParameterList {
-            names,
-            from: self.from,
-            torque_per_command: self.torque_per_command,
-            friction_terms: self.friction_terms(),
-            modes: self.beam.modes.len(),
-            parameters: Listing::of(names, self),
-        }
-    }
-
-    /// Terms of the friction law of the result.
-    fn friction_terms(&self) -> Vec<LawTermName> {
-        let Some(law) = &self.friction.law else { return Vec::new() };
-        let t = &law.terms;
-        let mut terms = Vec::new();
-        terms.extend(law.viscous_forward.as_ref().map(|_| LawTermName::ViscousByDirection));
-        terms.extend(t.near_rest.as_ref().map(|_| LawTermName::NearRest));
-        terms.extend(t.root.as_ref().map(|_| LawTermName::Root));
-        terms.extend(t.with_load.as_ref().map(|_| LawTermName::WithLoad));
-        terms.extend(t.ripples.iter().map(|_| LawTermName::Ripple));
-        terms.extend(t.torque_ripples.iter().map(|_| LawTermName::TorqueRipple));
-        terms
-    }
+/// Terms of the friction law of a result.
+fn friction_terms(result: &ResultFile) -> Vec<LawTermName> {
+    let Some(law) = &result.friction.law else { return Vec::new() };
+    let t = &law.terms;
+    let mut terms = Vec::new();
+    terms.extend(law.viscous_forward.as_ref().map(|_| LawTermName::ViscousByDirection));
+    terms.extend(t.near_rest.as_ref().map(|_| LawTermName::NearRest));
+    terms.extend(t.root.as_ref().map(|_| LawTermName::Root));
+    terms.extend(t.with_load.as_ref().map(|_| LawTermName::WithLoad));
+    terms.extend(t.ripples.iter().map(|_| LawTermName::Ripple));
+    terms.extend(t.torque_ripples.iter().map(|_| LawTermName::TorqueRipple));
+    terms
 }
 
 /// A list of parameters that is being built.
 struct Listing<'a> {
     names: UnitNames,
-    part: &'a ParameterPart,
+    part: &'a ResultFile,
     parameters: Vec<ListedParameter>,
 }
 
 impl<'a> Listing<'a> {
-    fn of(names: UnitNames, part: &'a ParameterPart) -> Vec<ListedParameter> {
+    fn of(names: UnitNames, part: &'a ResultFile) -> Vec<ListedParameter> {
         let mut listing = Self { names, part, parameters: Vec::new() };
         listing.friction();
         listing.friction_law();
@@ -179,9 +95,9 @@ impl<'a> Listing<'a> {
     ) {
         // A refusal of something else may affect what is given.
         let is_warning = |f: &&FindingEntry| match f.severity {
-            SeverityName::Warning => true,
-            SeverityName::Refusal => estimate.is_some(),
-            SeverityName::Info => false,
+            Severity::Warning => true,
+            Severity::Refusal => estimate.is_some(),
+            Severity::Info => false,
         };
         let affects = |f: &&FindingEntry| f.affects.iter().any(|k| affected.contains(&k.as_str()));
         let mut warnings: Vec<String> = Vec::new();
