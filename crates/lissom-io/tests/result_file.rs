@@ -220,7 +220,7 @@ fn the_arm_of_a_result_is_read_as_it_was_written() {
     let arm = &mut id.arm.as_mut().unwrap().arm;
     (arm.dry_terms, arm.torque_ripples) = (DryTerms::default(), Vec::new());
     let json = serde_json::to_value(ResultFile::of(&campaign.channels, &id, None)).unwrap();
-    assert_eq!(json["arm"]["root"], Value::Null);
-    assert_eq!(json["arm"]["with_load"], Value::Null);
-    assert_eq!(json["arm"]["torque_ripples"], Value::Array(Vec::new()));
+    assert_eq!(json["arm"]["root"], serde_json::Value::Null);
+    assert_eq!(json["arm"]["with_load"], serde_json::Value::Null);
+    assert_eq!(json["arm"]["torque_ripples"], serde_json::json!([]));
 }
