@@ -166,7 +166,7 @@ fn along<const D: usize>(
     for (k, pack) in packs.iter_mut().enumerate() {
         let by = rates.by_parameter.get(k);
         let (mut term, mut power) = (*pack, 1.0);
-        for n in 0..most {
+        for (n, of_order) in terms.iter().enumerate().take(most) {
             let old = term;
             power *= time_s;
             let share = 1.0 / (n as f64 + 1.0);
@@ -174,7 +174,7 @@ fn along<const D: usize>(
                 let mut sum = [0.0; LANES];
                 add_products(&mut sum, &rates.a[i], &old);
                 if let Some((a, b)) = by {
-                    add_products(&mut sum, &terms[n], &a[i]);
+                    add_products(&mut sum, of_order, &a[i]);
                     add(&mut sum, input(n, net), &b[i]);
                 }
                 *next = sum.map(|v| v * share);

@@ -32,7 +32,10 @@ impl Source {
     }
 
     pub(crate) fn new(path: &Path, text: String) -> Self {
-        let text = text.strip_prefix('\u{feff}').map_or(text.clone(), str::to_owned);
+        let text = match text.strip_prefix('\u{feff}') {
+            Some(rest) => rest.to_owned(),
+            None => text,
+        };
         Self { path: path.to_owned(), text }
     }
 

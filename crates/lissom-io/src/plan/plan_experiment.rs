@@ -70,7 +70,7 @@ pub(super) fn read(
         let omega_rad_s = reference.highest_rad_s().filter(|_| is_sine);
         let drive = if current { Drive::Current(reference) } else { Drive::Angle(reference) };
         let experiment =
-            Experiment::new(drive, record_s).map_err(|e| experiment_error(&value, e))?;
+            Experiment::new(drive, record_s).map_err(|e| experiment_error(&value, &e))?;
         let experiment = experiment.starting(start).settling(match KINDS[kind] {
             // The log begins when the tip is released.
             "release" => Settle::AtOnce,
@@ -81,7 +81,7 @@ pub(super) fn read(
     Ok(planned)
 }
 
-fn experiment_error(value: &Value<'_>, source: RigError) -> Error {
+fn experiment_error(value: &Value<'_>, source: &RigError) -> Error {
     let hint = match source {
         RigError::AboveNyquist { .. } => "use lower frequencies, or sample faster",
         RigError::NoLines | RigError::Line { .. } => {
@@ -93,7 +93,7 @@ fn experiment_error(value: &Value<'_>, source: RigError) -> Error {
 }
 
 fn made<T>(value: &Value<'_>, outcome: Result<T, RigError>) -> Result<T, Error> {
-    outcome.map_err(|source| experiment_error(value, source))
+    outcome.map_err(|source| experiment_error(value, &source))
 }
 
 /// Combines every frequency with every amplitude.

@@ -68,7 +68,7 @@ fn joined_data(
     let spread = |at: &[f64], output: Output| {
         let (mut values, mut weights) = (Vec::new(), Vec::new());
         for w in &omega {
-            let measured = at.iter().position(|at| at == w);
+            let measured = at.iter().position(|at| at.total_cmp(w).is_eq());
             values.push(measured.map_or(Complex64::ZERO, |i| output.weighted[i]));
             weights.push(measured.map_or(0.0, |i| output.weights[i]));
         }
