@@ -91,7 +91,7 @@ const RECIPES: &[Recipe] = &[
     },
     Recipe {
         name: "wheel",
-        about: "build the wheel of the Python package, install it into an environment under target, test it there",
+        about: "build the wheel of the Python package as it would be published, install it, test it there",
         takes: Takes::Flags(&[]),
         run: wheel,
     },
@@ -220,12 +220,12 @@ fn test(context: &Context) -> Result<(), Failure> {
     // In a build of its own, so that the tests before see the default build.
     let formats = ["test", "--package", "lissom-formats", "--features", "full"];
     run("formats of the full build", &mut cargo(&context.root, &formats))?;
-    wheel(context)
+    wheel::test(&context.root, wheel::Build::Tested)
 }
 
 /// Builds and tests the Python package.
 fn wheel(context: &Context) -> Result<(), Failure> {
-    wheel::test(&context.root)
+    wheel::test(&context.root, wheel::Build::Published)
 }
 
 /// Checks the scripts, and tests them in a browser.

@@ -11,8 +11,10 @@ fn result(axis: &str, constant: &str, unit: &str) -> String {
 fn with_friction(axis: &str, constant: &str, unit: &str, friction: &str) -> String {
     format!(
         r#"{{"lissom": "0.1.0", "axis": "{axis}", "torque_per_command": {constant}, "command_unit": "{unit}", "from": null,
-            "friction": {{{friction}, "curve": []}}, "drive": {{}}, "beam": {{"modes": [], "coupling_by_tip": []}}, "runs": [],
-            "findings": []}}"#
+            "friction": {{{friction}, "curve": []}}, "drive": {{}}, "beam": {{"modes": [], "coupling_by_tip": []}},
+            "arm": null, "methods": {{}}, "models": {{"from": "responses", "tips": []}}, "runs": [], "findings": [],
+            "frequency_response": {{"omega_rad_s": [], "run": [], "flagged": [], "vouched_for": [], "tips": [],
+            "motor_raw": {{"re": [], "im": [], "std": []}}, "motor_corrected": {{"re": [], "im": [], "std": []}}}}}}"#
     )
 }
 
