@@ -1,8 +1,8 @@
 //! The list of all thresholds.
 
 use crate::identify::{
-    equivalent, judge, methods, prepare, responses, separability, thresholds as all_methods,
-    validation,
+    equivalent, judge, methods, output_error, prepare, responses, separability,
+    thresholds as all_methods, validation,
 };
 use crate::threshold::Threshold;
 use crate::{information, plan, record, spectrum};
@@ -18,8 +18,8 @@ const GROUPS: [&[Threshold]; 18] = [
     methods::thresholds::LIST,
     methods::regression::thresholds::LIST,
     methods::friction_law::thresholds::LIST,
-    methods::constant_velocity::thresholds::LIST,
-    methods::output_error::thresholds::LIST,
+    prepare::steady_thresholds::LIST,
+    output_error::thresholds::LIST,
     responses::thresholds::LIST,
     judge::thresholds::LIST,
     information::thresholds::LIST,

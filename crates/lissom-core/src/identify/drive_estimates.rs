@@ -1,8 +1,8 @@
-//! Estimates of friction, inertia and coupling from one method.
+//! Estimates of friction, inertia and coupling from one method, and those of the beam.
 
 use strum::IntoStaticStr;
 
-use crate::identify::estimate::Estimate;
+use crate::identify::estimate::{Estimate, ModeEstimate};
 use crate::identify::friction_estimates::Friction;
 use crate::identify::gravity_estimate::Gravity;
 
@@ -71,4 +71,15 @@ pub struct DriveEstimates {
     pub coupling_by_tip: Vec<Option<Estimate>>,
     /// Gravity, if the campaign has it.
     pub gravity: Option<Gravity>,
+}
+
+/// Estimates of the beam.
+#[derive(Debug, Clone, Default, PartialEq)]
+pub struct BeamEstimates {
+    /// Modes with the motor clamped, ascending in frequency.
+    pub modes: Vec<ModeEstimate>,
+    /// Coupling between motor and beam, Σκ_i = h_{n+1} of (15) \[N·m/rad\].
+    pub coupling: Option<Estimate>,
+    /// κ_i of each tip of the campaign \[N·m/rad\], `None` for a tip that measures no angle; empty if none does.
+    pub coupling_by_tip: Vec<Option<Estimate>>,
 }

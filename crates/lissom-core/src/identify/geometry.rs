@@ -5,7 +5,7 @@ use nalgebra::{DMatrix, DVector};
 use crate::arm::Arm;
 use crate::beam::{BeamError, LumpedBeam, Payload, Span};
 use crate::identify::estimate::Estimate;
-use crate::identify::methods::output_error::OutputError;
+use crate::identify::output_error::OutputError;
 use crate::identify::thresholds::{
     GEOMETRY_AGREES, GEOMETRY_AS_GOOD, GEOMETRY_KNOWN, SINGLE_SPANS_MOST,
 };

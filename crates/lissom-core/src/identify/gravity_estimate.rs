@@ -2,6 +2,7 @@
 
 use crate::identify::estimate::Estimate;
 use crate::load::GravityLoad;
+use crate::record::Campaign;
 
 /// Estimate of the gravity of an unbalanced load: the torque `g_s·sin θ + g_c·cos θ = m·g·l·sin(θ + φ)` that the motor
 /// has to supply, at the motor's angle θ as logged
@@ -86,4 +87,10 @@ mod tests {
             assert!((found.std / variance.sqrt() - 1.0).abs() < 1e-6, "{k}: {}", found.std);
         }
     }
+}
+
+/// Torque per command by which the load that was found is the one that the campaign says.
+pub(crate) fn torque_constant(campaign: &Campaign, gravity: Option<Gravity>) -> Option<Estimate> {
+    let assumed = campaign.channels.command.torque_per_unit();
+    Some(gravity?.torque_constant(campaign.mgl_nm?, assumed))
 }

@@ -1,36 +1,25 @@
 //! The result of an identification.
 
-use crate::identify::drive_estimates::Method;
+use crate::identify::drive_estimates::{BeamEstimates, Method};
 use crate::identify::equivalent::Equivalent;
-use crate::identify::estimate::{Estimate, ModeEstimate};
+use crate::identify::estimate::Estimate;
 use crate::identify::findings::Finding;
 use crate::identify::found_arm::FoundArm;
 use crate::identify::friction_estimates::Friction;
-use crate::identify::gravity_estimate::Gravity;
+use crate::identify::gravity_estimate::{Gravity, torque_constant};
 use crate::identify::judge::{Conclusion, Methods};
+use crate::identify::linear_models::LinearModels;
 use crate::identify::methods::constant_velocity::ConstantVelocity;
 use crate::identify::methods::friction_law::{FrictionLaw, Unused, UnusedTorque};
 use crate::identify::methods::least_squares::LeastSquares;
-use crate::identify::methods::output_error::{OutputError, SearchEnd};
 use crate::identify::methods::regression::{BeamRegression, MotorRegression};
 use crate::identify::methods::third_harmonic::ThirdHarmonic;
+use crate::identify::output_error::{OutputError, SearchEnd};
 use crate::identify::prepare::run_analysis::RunAnalysis;
-use crate::identify::responses::linear_models::LinearModels;
 use crate::identify::responses::rational::{BeamFit, MotorFit};
 use crate::identify::responses::response_point::ResponsePoint;
 use crate::identify::separability::Separability;
 use crate::record::Campaign;
-
-/// Estimates of the beam.
-#[derive(Debug, Clone, Default, PartialEq)]
-pub struct BeamEstimates {
-    /// Modes with the motor clamped, ascending in frequency.
-    pub modes: Vec<ModeEstimate>,
-    /// Coupling between motor and beam, Σκ_i = h_{n+1} of (15) \[N·m/rad\].
-    pub coupling: Option<Estimate>,
-    /// κ_i of each tip of the campaign \[N·m/rad\], `None` for a tip that measures no angle; empty if none does.
-    pub coupling_by_tip: Vec<Option<Estimate>>,
-}
 
 /// The complete result of an identification.
 #[derive(Debug, Clone)]
@@ -164,10 +153,4 @@ impl Identified {
             findings,
         }
     }
-}
-
-/// Torque per command by which the load that was found is the one that the campaign says.
-pub(super) fn torque_constant(campaign: &Campaign, gravity: Option<Gravity>) -> Option<Estimate> {
-    let assumed = campaign.channels.command.torque_per_unit();
-    Some(gravity?.torque_constant(campaign.mgl_nm?, assumed))
 }

@@ -16,17 +16,20 @@ mod gravity_estimate;
 mod identified;
 mod interrupt;
 pub(crate) mod judge;
+mod linear_models;
 pub(crate) mod methods;
 mod options;
+pub(crate) mod output_error;
 mod payload;
 mod pipeline;
 pub(crate) mod prepare;
+mod replayed_responses;
 pub(crate) mod responses;
 pub(crate) mod separability;
 pub(crate) mod thresholds;
 pub(crate) mod validation;
 
-pub use drive_estimates::{DriveEstimates, Method};
+pub use drive_estimates::{BeamEstimates, DriveEstimates, Method};
 pub use equivalent::{
     Equivalent, EquivalentArm, EquivalentBeam, EquivalentData, EquivalentError, EquivalentRefusal,
     PartOutside, ResponseZero, StdSource, StrainlessForm, equivalent, equivalent_arm,
@@ -38,8 +41,9 @@ pub use found_arm::{ArmSource, FoundArm, TorqueUsed};
 pub use friction_estimates::{Friction, LawEstimates, NearRestEstimate, RippleEstimate};
 pub use geometry::{ArmQuantity, Explanation, GeometryCheck, geometry_check};
 pub use gravity_estimate::Gravity;
-pub use identified::{BeamEstimates, Identified};
+pub use identified::Identified;
 pub use interrupt::Interrupt;
+pub use linear_models::{LinearModels, ModelSource, TipModel};
 pub use methods::constant_velocity::{
     ConstantVelocity, FrictionLine, LineError, LineShape, constant_velocity,
 };
@@ -48,16 +52,16 @@ pub use methods::friction_law::{
     MissingTerm, ModelTerm, Moved, MovingTerm, ScaleUnit, UnusedTorque,
 };
 pub use methods::least_squares::{LeastSquares, least_squares};
-pub use methods::output_error::{
-    ByRun, Extension, Iteration, OutputError, OutputErrorStart, SearchEnd, StageReport, Stop,
-    output_error, starts, starts_by_motor, starts_by_responses,
-};
 pub use methods::regression::{
     BeamRegression, Candidate, GravityPartner, HiddenMode, HoldEvidence, HoldShown, LeftTorque,
     MotorRegression, OtherHold, RunDifference, beam_regression, hold_shown, motor_regression,
 };
 pub use methods::third_harmonic::{PairEstimate, ThirdHarmonic, mean_estimate, pair_estimate};
 pub use options::{Effort, Options};
+pub use output_error::{
+    ByRun, Extension, Iteration, OutputError, OutputErrorStart, SearchEnd, StageReport, Stop,
+    output_error, starts, starts_by_motor, starts_by_responses,
+};
 pub use payload::LoadedArm;
 pub use pipeline::{IdentifyError, Stage, identify};
 pub use prepare::prepared::Prepared;
@@ -65,7 +69,6 @@ pub use prepare::run_analysis::{RunAnalysis, RunKind, Sinusoidal, is_possible_sa
 pub use prepare::run_phasors::RunPhasors;
 pub use prepare::steady_points::SteadyPoint;
 pub use responses::correct::{Response, corrected, ratio};
-pub use responses::linear_models::{LinearModels, ModelSource, TipModel};
 pub use responses::rational::{
     BeamFit, Damping, MotorData, MotorFit, Pole, SharedPoles, SharedPolesError, Spurious, TipData,
     TipForm, fit_beam, fit_motor, fit_shared_poles, fit_shared_poles_by_evidence, without_origin,

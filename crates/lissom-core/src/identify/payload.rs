@@ -2,7 +2,7 @@
 
 use crate::identify::estimate::{Estimate, ModeEstimate};
 use crate::identify::findings::{Finding, rows};
-use crate::identify::methods::output_error::OutputError;
+use crate::identify::output_error::OutputError;
 use crate::identify::responses::correct::Response;
 use crate::replay::ModalArm;
 

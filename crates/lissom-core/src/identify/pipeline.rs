@@ -7,26 +7,28 @@ use crate::identify::estimate::{Estimate, ModeEstimate};
 use crate::identify::findings::{EstimateUnits, Finding, rows};
 use crate::identify::identified::Identified;
 use crate::identify::judge::{Evidence, Methods, conclude, slip_phase_solution, slip_phase_terms};
+use crate::identify::linear_models::LinearModels;
 use crate::identify::methods::constant_velocity;
-use crate::identify::methods::friction_law::{FrictionLaw, friction_law, predicts_better};
+use crate::identify::methods::friction_law::{
+    FrictionLaw, KnownArm, friction_law, predicts_better,
+};
 use crate::identify::methods::least_squares::least_squares;
-use crate::identify::methods::output_error::{OutputError, OutputErrorStart, output_error};
 use crate::identify::methods::regression::thresholds::FEW_PHASES;
 use crate::identify::methods::regression::{
     BeamRegression, MotorRegression, beam_regression, other_hold, with_tips_in_time,
 };
 use crate::identify::methods::rigid_equation::rigid_equation;
-use crate::identify::methods::starting_arms::{starting_arms, starts_by_bending, with_law};
 use crate::identify::methods::third_harmonic::{ThirdHarmonic, third_harmonic};
 use crate::identify::methods::unlike_runs::regression_of_like_runs;
 use crate::identify::options::{Effort, Options};
+use crate::identify::output_error::starting_arms::{starting_arms, starts_by_bending, with_law};
+use crate::identify::output_error::{OutputError, OutputErrorStart, output_error};
 use crate::identify::prepare::prepared::Prepared;
 use crate::identify::prepare::run_analysis::RunKind;
-use crate::identify::responses::linear_models::LinearModels;
-use crate::identify::responses::models::{beam_model, estimates_model, rigid_model};
+use crate::identify::replayed_responses::response_step::{ResponseTables, Responses, rigid_model};
+use crate::identify::responses::models::{beam_model, estimates_model};
 use crate::identify::responses::rational::BeamFit;
 use crate::identify::responses::response_point::ResponsePoint;
-use crate::identify::responses::response_step::{ResponseTables, Responses};
 use crate::identify::thresholds::{
     BEAM_RESIDUAL, BEAM_SHARES, CONSTANT_VELOCITY_ALONE, CONSTANT_VELOCITY_FEW, MODE_DAMPING_LEAST,
     PRESENT, REFUSED_TORQUE, UNEXPLAINED_TORQUE,
@@ -221,7 +223,8 @@ pub fn identify(
 
     progress(Stage::Responses);
     let replay = output_error.as_ref().filter(|o| o.describes_whole_runs());
-    let friction_law = law.map(|(law, sums)| law.beside(&sums, replay));
+    let friction_law =
+        law.map(|(law, sums)| law.beside(&sums, replay.map(|found| found as &dyn KnownArm)));
     let beam_regression = any_beam_regression.filter(is_sound_beam);
     let phases = slip_phase_solution(regression.as_ref(), friction_law.as_ref());
     let explained = phases.as_ref().zip(regression.as_ref()).and_then(|((method, drive), r)| {

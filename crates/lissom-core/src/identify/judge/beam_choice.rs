@@ -1,14 +1,14 @@
 //! Modes of the beam: which method's are taken.
 
+use crate::identify::drive_estimates::BeamEstimates;
 use crate::identify::drive_estimates::{DriveEstimates, Method};
 use crate::identify::estimate::{Estimate, ModeEstimate};
 use crate::identify::findings::{Finding, rows};
-use crate::identify::identified::BeamEstimates;
 use crate::identify::judge::evidence::{Chosen, Evidence};
 use crate::identify::judge::thresholds::MODEL_MISFIT;
 use crate::identify::judge::thresholds::TIPS_COMPLETE;
-use crate::identify::methods::output_error::OutputError;
 use crate::identify::methods::regression::BeamRegression;
+use crate::identify::output_error::OutputError;
 use crate::identify::prepare::run_analysis::RunKind;
 
 /// Whether the beam's equations on the measured tips explain their motion.

@@ -4,8 +4,11 @@ use crate::identify::drive_estimates::{DriveEstimates, Method};
 use crate::identify::findings::{Finding, is_cause, rank, rows};
 use crate::identify::found_arm::FoundArm;
 use crate::identify::judge::evidence::{Chosen, Evidence};
-use crate::identify::judge::{beam_choice, drive_table, remarks, unknown};
-use crate::identify::methods::{constant_velocity, friction_law, output_error, regression};
+use crate::identify::judge::{
+    beam_choice, constant_velocity_findings, drive_table, friction_law_findings,
+    output_error_findings, regression_findings, remarks, unknown,
+};
+use crate::identify::methods::regression;
 use crate::identify::separability::Separability;
 
 /// What the result states.
@@ -21,7 +24,7 @@ pub(crate) struct Conclusion {
 pub(crate) fn conclude(evidence: &Evidence<'_>, mut findings: Vec<Finding>) -> Conclusion {
     let reversed = reversed_command(evidence);
     findings.extend(reversed.then(|| Finding::new(rows::CommandSign {})));
-    findings.extend(output_error::findings(evidence));
+    findings.extend(output_error_findings::findings(evidence));
     let mut chosen = Chosen::of(evidence, drive_table::choose(evidence));
     let refused = if reversed {
         // No torque is right, and none needs a refusal of its own.
@@ -35,16 +38,16 @@ pub(crate) fn conclude(evidence: &Evidence<'_>, mut findings: Vec<Finding>) -> C
     let alone = evidence.rests_on_constant_velocities();
     findings.extend(lag_of_response(evidence, &chosen));
     if alone {
-        findings.push(constant_velocity::only_constant_velocities(evidence.campaign));
+        findings.push(constant_velocity_findings::only_constant_velocities(evidence.campaign));
     }
-    findings.extend(constant_velocity::taken(evidence, &chosen));
+    findings.extend(constant_velocity_findings::taken(evidence, &chosen));
     findings.extend(beam_choice::findings(evidence, &chosen.beam));
     findings.extend(refused);
     findings.extend(remarks::of_friction(evidence, &chosen));
-    findings.extend(friction_law::finding(evidence));
+    findings.extend(friction_law_findings::finding(evidence));
     if !alone {
-        findings.splice(0..0, regression::reversed_tip(&chosen));
-        findings.extend(regression::findings(evidence, &chosen));
+        findings.splice(0..0, regression_findings::reversed_tip(&chosen));
+        findings.extend(regression_findings::findings(evidence, &chosen));
     }
     findings.extend(remarks::remarks(evidence, &chosen));
     let separability = Separability::of(evidence, &chosen, &findings);
@@ -78,5 +81,5 @@ fn reversed_command(evidence: &Evidence<'_>) -> bool {
 fn lag_of_response(evidence: &Evidence<'_>, chosen: &Chosen) -> Option<Finding> {
     let model = evidence.methods.motor_model.as_ref()?;
     let taken = chosen.method == Some(Method::FrequencyResponse);
-    taken.then(|| Some(output_error::command_lag(evidence.campaign, model.delay_s?)))?
+    taken.then(|| Some(output_error_findings::command_lag(evidence.campaign, model.delay_s?)))?
 }

@@ -1,13 +1,13 @@
 //! What the methods found, and what was taken of it.
 
+use crate::identify::drive_estimates::BeamEstimates;
 use crate::identify::drive_estimates::{DriveEstimates, Method};
-use crate::identify::identified::BeamEstimates;
 use crate::identify::methods::constant_velocity::ConstantVelocity;
 use crate::identify::methods::friction_law::{FrictionLaw, MissingTerm};
 use crate::identify::methods::least_squares::LeastSquares;
-use crate::identify::methods::output_error::OutputError;
 use crate::identify::methods::regression::{BeamRegression, MotorRegression};
 use crate::identify::methods::third_harmonic::ThirdHarmonic;
+use crate::identify::output_error::OutputError;
 use crate::identify::prepare::prepared::Prepared;
 use crate::identify::prepare::run_analysis::RunAnalysis;
 use crate::identify::responses::rational::{BeamFit, MotorFit};

@@ -2,8 +2,12 @@
 
 mod beam_choice;
 mod conclude;
+mod constant_velocity_findings;
 mod drive_table;
 mod evidence;
+mod friction_law_findings;
+mod output_error_findings;
+mod regression_findings;
 mod remarks;
 pub(crate) mod thresholds;
 mod unknown;

@@ -9,12 +9,14 @@ use rayon::prelude::*;
 use crate::identify::drive_estimates::DriveEstimates;
 use crate::identify::methods::regression::thresholds::{BLOCKS_WANTED, FEW_PHASES};
 use crate::identify::methods::regression::{
-    Candidate, Cluster, Fitted, Further, ModeTerms, MotorColumns, MotorEquation, Phase, Rows,
-    SMOOTHING_LEAST, SineAndCosine, Term, WINDOW_STEP, Window, scan, solve, velocity_and_phases,
+    Candidate, Cluster, Fitted, Further, ModeTerms, MotorColumns, MotorEquation, Rows,
+    SineAndCosine, Term, scan, solve, velocity_and_phases,
 };
 use crate::identify::methods::thresholds::{SLOWEST_SAMPLE, STANDING_SHARE};
+use crate::identify::prepare::phases::{Phase, SMOOTHING_LEAST};
 use crate::identify::prepare::prepared::Prepared;
 use crate::identify::prepare::run_noise::RunNoise;
+use crate::identify::prepare::window::{WINDOW_STEP, Window};
 use crate::identify::thresholds::UNEXPLAINED_TORQUE;
 use crate::record::{Campaign, Run};
 

@@ -3,10 +3,8 @@
 pub(crate) mod constant_velocity;
 pub(crate) mod friction_law;
 pub(crate) mod least_squares;
-pub(crate) mod output_error;
 pub(crate) mod regression;
 pub(crate) mod rigid_equation;
-pub(crate) mod starting_arms;
 pub(crate) mod third_harmonic;
 pub(crate) mod thresholds;
 pub(crate) mod unlike_runs;

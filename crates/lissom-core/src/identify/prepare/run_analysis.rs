@@ -3,14 +3,14 @@
 use num_complex::Complex64;
 
 use crate::identify::findings::{Channel, EstimateUnits, Finding, rows};
-use crate::identify::methods::constant_velocity::thresholds::{STEADY_BOTH_WAYS, STEADY_ONE_WAY};
-use crate::identify::methods::regression::slip_sign;
 use crate::identify::prepare::channel_check::{clipped_share, dwell_share, rest_share};
+use crate::identify::prepare::phases::slip_sign;
 use crate::identify::prepare::repeated_run::repeats;
 use crate::identify::prepare::run_phasors::RunPhasors;
 use crate::identify::prepare::sensor_check;
 use crate::identify::prepare::sensor_check::tip_unit;
 use crate::identify::prepare::steady_points::{SteadyPoint, steady_points, steady_share};
+use crate::identify::prepare::steady_thresholds::{STEADY_BOTH_WAYS, STEADY_ONE_WAY};
 use crate::identify::prepare::thresholds::{
     AT_LIMIT, AT_REST_REPORTED, DRIFT_REPORTED, DRIFT_STEPS, FEW_PERIODS, JITTER_REPORTED, ONE_WAY,
     ONE_WAY_MOVES, SAMPLE_TIME_LEAST_S, SAMPLE_TIME_MOST_S, SAMPLE_TIMES_UNLIKE,

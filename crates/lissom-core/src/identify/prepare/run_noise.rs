@@ -1,7 +1,7 @@
 //! Noise of the sensors in a run.
 
-use crate::identify::methods::regression::needed_smoothing;
 use crate::identify::prepare::channel_noise::independent_noise;
+use crate::identify::prepare::phases::needed_smoothing;
 use crate::record::Run;
 
 /// Standard deviation of what is independent from sample to sample in each channel of a run.

@@ -3,11 +3,11 @@
 use std::collections::VecDeque;
 use std::ops::Range;
 
-use crate::identify::methods::constant_velocity::thresholds::{
+use crate::identify::prepare::correlated_average::{Average, VALUES_LEAST, average};
+use crate::identify::prepare::steady_thresholds::{
     COMMAND_CHANGE, GROWN_BY, SAME_STRETCH, STEADY_PART, STOPPED_SHARE, STOPPED_SPEED, VARIES_BY,
     VARIES_SHARE, VELOCITY_KNOWN,
 };
-use crate::identify::prepare::correlated_average::{Average, VALUES_LEAST, average};
 use crate::identify::thresholds::TRAVEL_OVER_NOISE;
 use crate::record::{Hold, Run};
 

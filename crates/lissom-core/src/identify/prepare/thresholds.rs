@@ -99,5 +99,11 @@ thresholds! {
         AT_LIMIT: f64 = 0.999, "1", Convention;
         /// Share of a run with the command at its limit above which this is reported.
         SATURATION_REPORTED: f64 = 0.001, "1", Convention;
+        /// The motor is at rest if it is slower than this share of its largest velocity: an angle
+        /// that drifts slowly while friction holds the joint is not slip.
+        REST_SPEED: f64 = 1e-5, "1", Convention;
+        /// A velocity that is opposite to its slip phase by this many standard deviations is a
+        /// reversal and is cut out: noise alone gives none in many thousands of samples.
+        SURELY_REVERSED: f64 = 5.0, "standard deviations", Derived;
     }
 }

@@ -4,12 +4,11 @@ use num_complex::Complex64;
 
 use crate::identify::estimate::Estimate;
 use crate::identify::findings::{Finding, rows};
-use crate::identify::methods::regression::slip_sign;
 use crate::identify::prepare::channel_noise::channel_noise;
+use crate::identify::prepare::phases::slip_sign;
 use crate::identify::prepare::run_analysis::{RunAnalysis, RunKind};
 use crate::identify::responses::correct::Response;
 use crate::identify::responses::rational::MotorFit;
-use crate::identify::responses::replayed_bands::ReplayedBands;
 use crate::identify::responses::response_point::{ResponsePoint, sticking_error};
 use crate::identify::responses::thresholds::{
     BAND_COHERENCE, BAND_CONTRADICTED, BAND_POWER, BAND_UNCERTAIN, LONG_RUNS, NEAREST_BAND,
@@ -35,13 +34,21 @@ fn long_enough(campaign: &Campaign, runs: Vec<usize>) -> Vec<usize> {
     if total_s(&long) >= LONG_RUNS * total_s(&runs) { long } else { runs }
 }
 
+/// Responses in bands without friction, which a method above gives.
+pub(crate) trait WithoutFriction: Sync {
+    /// The motor's response to the command at ω; `None` where no band is.
+    fn motor(&self, omega_rad_s: f64) -> Option<Response>;
+    /// A tip's response to the motor at ω.
+    fn tip(&self, tip: usize, omega_rad_s: f64) -> Option<Response>;
+}
+
 /// Bands of all such runs. Friction is taken out by the replay where it describes the runs, else in
 /// time, as `coulomb_command` against the smoothed velocity.
 pub(crate) fn bands(
     campaign: &Campaign,
     runs: &[RunAnalysis],
     coulomb_command: Option<Estimate>,
-    replayed: Option<&ReplayedBands<'_>>,
+    replayed: Option<&dyn WithoutFriction>,
 ) -> Vec<ResponsePoint> {
     let records = Records { campaign, runs: long_enough(campaign, general(runs)) };
     if records.runs.is_empty() {

@@ -2,13 +2,9 @@
 
 pub(crate) mod bands;
 pub(crate) mod correct;
-pub(crate) mod friction_waveform;
-pub(crate) mod linear_models;
 pub(crate) mod model;
 pub(crate) mod models;
 pub(crate) mod rational;
-pub(crate) mod replayed_bands;
 pub(crate) mod response_point;
-pub(crate) mod response_step;
 pub(crate) mod response_table;
 pub(crate) mod thresholds;

@@ -1,11 +1,8 @@
 //! Linear models from estimates or from fitted responses.
 
-use nalgebra::DMatrix;
-
 use crate::identify::drive_estimates::DriveEstimates;
 use crate::identify::estimate::Estimate;
 use crate::identify::methods::friction_law::FrictionLaw;
-use crate::identify::methods::output_error::OutputError;
 use crate::identify::methods::regression::{BeamRegression, MotorRegression, Terms, coupled_tips};
 use crate::identify::responses::correct::Response;
 use crate::identify::responses::rational::{
@@ -51,18 +48,6 @@ pub(crate) fn estimates_model(
         None => model,
     };
     (inertia.value > 0.0).then(|| (model, mode.map(BeamFit::of_mode)))
-}
-
-/// The model of an axis without tips that the replay found rigid.
-pub(crate) fn rigid_model(campaign: &Campaign, replay: &OutputError) -> Option<MotorFit> {
-    if !(campaign.channels.tips.is_empty() && replay.is_rigid()) {
-        return None;
-    }
-    let command = &campaign.channels.command;
-    let viscous = replay.friction(command.back_emf_viscous).viscous?;
-    // Without correlation: the linear models of an accepted arm have its own covariance.
-    let drive = [replay.inertia()?, viscous];
-    MotorFit::of_estimates(&drive, &DMatrix::identity(2, 2), None, command)
 }
 
 /// The beam's modes from its tips' responses to the motor.

@@ -6,10 +6,9 @@ use crate::finding::result_key as key;
 use crate::identify::estimate::Estimate;
 use crate::identify::findings::{Finding, Severity, rows};
 use crate::identify::prepare::run_analysis::{RunAnalysis, RunKind};
-use crate::identify::responses::bands::{bands, general};
+use crate::identify::responses::bands::{WithoutFriction, bands, general};
 use crate::identify::responses::correct::{Response, corrected_by_harmonics, ratio};
 use crate::identify::responses::rational::TipForm;
-use crate::identify::responses::replayed_bands::ReplayedBands;
 use crate::identify::responses::response_point::{ResponsePoint, sticking_error};
 use crate::identify::responses::thresholds::{POINT_UNCERTAIN, STUCK_LEAST};
 use crate::record::{Campaign, TipQuantity};
@@ -21,7 +20,7 @@ pub(crate) struct Replayed<'a> {
     /// Corrected response of each run: of sinusoidal ones where friction is known over time.
     pub(crate) sinusoidal: Vec<Option<Response>>,
     /// Those of the other runs, where an arm was found that describes them from end to end.
-    pub(crate) bands: Option<ReplayedBands<'a>>,
+    pub(crate) bands: Option<Box<dyn WithoutFriction + 'a>>,
 }
 
 /// Builds the table. Where the replay says nothing friction is taken for a square wave of
@@ -41,7 +40,7 @@ pub(crate) fn response_table(
             sinusoidal(index, run, coulomb_command, of_replay, findings)
         })
         .collect();
-    let mut of_bands = bands(campaign, runs, coulomb_command, replayed.bands.as_ref());
+    let mut of_bands = bands(campaign, runs, coulomb_command, replayed.bands.as_deref());
     // Every band is of all these runs: what is wrong in one of them is in each.
     if general(runs).iter().any(|&i| spoken_against(&runs[i], findings)) {
         for band in &mut of_bands {

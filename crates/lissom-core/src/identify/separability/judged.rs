@@ -4,8 +4,8 @@ use nalgebra::{DMatrix, DVector};
 
 use crate::identify::drive_estimates::DriveEstimates;
 use crate::identify::estimate::Estimate;
-use crate::identify::methods::output_error::OutputError;
 use crate::identify::methods::regression::Terms;
+use crate::identify::output_error::OutputError;
 use crate::identify::separability::ParameterCertainty;
 use crate::identify::separability::thresholds::LOST_SHARE;
 use crate::information::{ArmParameter, correlation, inverse, slopes};

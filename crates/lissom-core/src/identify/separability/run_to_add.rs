@@ -1,6 +1,6 @@
 //! The further run that would say most about what the logs tell least.
 
-use crate::identify::methods::output_error::OutputError;
+use crate::identify::output_error::OutputError;
 use crate::identify::separability::direction::Direction;
 use crate::identify::separability::judged::Judged;
 use crate::identify::separability::thresholds::{RUN_AS_GOOD, RUN_WORTH};

@@ -2,8 +2,8 @@
 
 use nalgebra::{DMatrix, DVector};
 
-use crate::identify::methods::output_error::ByRun;
 use crate::identify::methods::regression::{MotorRegression, RunLeftOut, unlike_others};
+use crate::identify::output_error::ByRun;
 use crate::identify::separability::judged::Judged;
 use crate::identify::separability::thresholds::{RUN_CARRIES, RUN_MOVES, RUN_RESIDUAL};
 use crate::identify::thresholds::PRESENT;

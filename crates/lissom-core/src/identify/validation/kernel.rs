@@ -1,7 +1,7 @@
 //! A window that slides over a log: means of a signal, of its rates and of a held command.
 #![expect(clippy::inline_always, reason = "compiled for wide registers as one")]
 
-use crate::identify::methods::regression::{Weights, Window};
+use crate::identify::prepare::window::{Weights, Window};
 use crate::record::Hold;
 
 /// The half-power frequency of a sin⁴ window is this over its length.

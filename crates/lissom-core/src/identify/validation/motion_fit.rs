@@ -1,6 +1,6 @@
 //! Simulation under the logged command, compared with the logged motion.
 
-use crate::identify::methods::output_error::{Masks, follow, masks};
+use crate::identify::output_error::{Masks, follow, masks};
 use crate::identify::validation::thresholds::FITS_PERCENT;
 use crate::record::{Campaign, Run};
 use crate::replay::{ModalArm, Window, predict};

@@ -2,7 +2,7 @@
 //! and the residuals are compared.
 
 use crate::identify::found_arm::FoundArm;
-use crate::identify::methods::output_error::{Masks, masks};
+use crate::identify::output_error::{Masks, masks};
 use crate::identify::validation::motion_fit::{FollowedLog, PredictedStretch, followed, logged};
 use crate::identify::validation::thresholds::{MODE_MOVED_BY, MODE_MOVED_LEAVES};
 use crate::record::Campaign;

@@ -3,7 +3,7 @@
 use rayon::prelude::*;
 use statrs::distribution::{ChiSquared, ContinuousCDF as _};
 
-use crate::identify::methods::output_error::{Masks, masks};
+use crate::identify::output_error::{Masks, masks};
 use crate::identify::prepare::channel_noise::channel_noise;
 use crate::identify::thresholds::NORMAL_95;
 use crate::identify::validation::motion_fit::{PredictedStretch, logged};

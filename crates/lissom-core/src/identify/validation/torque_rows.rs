@@ -6,7 +6,7 @@ use std::borrow::Cow;
 use rayon::prelude::*;
 
 use crate::friction::Place;
-use crate::identify::methods::output_error::{Masks, masks};
+use crate::identify::output_error::{Masks, masks};
 use crate::identify::prepare::channel_noise::channel_noise;
 use crate::identify::validation::cause::Causes;
 use crate::identify::validation::kernel::Kernel;

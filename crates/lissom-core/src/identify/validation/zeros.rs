@@ -4,7 +4,7 @@ use std::ops::Range;
 
 use nalgebra::{DMatrix, DVector};
 
-use crate::identify::methods::output_error::{Masks, masks};
+use crate::identify::output_error::{Masks, masks};
 use crate::identify::prepare::tip_zero::tip_zeros;
 use crate::identify::validation::kernel::Kernel;
 use crate::identify::validation::torque_arm::TorqueArm;

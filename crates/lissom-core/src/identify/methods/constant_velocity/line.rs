@@ -5,8 +5,8 @@ use statrs::distribution::{ContinuousCDF as _, FisherSnedecor, StudentsT};
 use thiserror::Error;
 
 use crate::identify::estimate::{Estimate, wider_by_student};
-use crate::identify::methods::constant_velocity::thresholds::SAME_SPEED;
 use crate::identify::prepare::correlated_average::FREEDOM;
+use crate::identify::prepare::steady_thresholds::SAME_SPEED;
 use crate::identify::thresholds::REJECTED_CHANCE;
 
 /// Standard errors below this share of the largest command are rounding.

@@ -3,7 +3,6 @@
 mod findings;
 mod line;
 mod steady_friction;
-pub(crate) mod thresholds;
 
 use crate::identify::estimate::Estimate;
 use crate::identify::findings::Finding;
@@ -13,7 +12,6 @@ use crate::identify::prepare::steady_points::SteadyPoint;
 use crate::record::Channels;
 use findings::findings;
 pub use line::{FrictionLine, LineError, LineShape};
-pub(crate) use steady_friction::{only_constant_velocities, taken};
 
 /// Result of the constant-velocity method.
 #[derive(Debug, Clone, PartialEq)]

@@ -3,12 +3,12 @@
 use num_complex::Complex64;
 
 use crate::identify::estimate::Estimate;
+use crate::identify::friction_estimates::Friction;
 use crate::identify::methods::friction_law::blocks::{Acts, BlockRows, Gram, Regressor};
 use crate::identify::methods::friction_law::column_values::hat;
 use crate::identify::methods::friction_law::law_term::Column;
 use crate::identify::methods::friction_law::rows::{Cut, Sampled};
 use crate::identify::methods::friction_law::thresholds::KNOT_ROWS;
-use crate::identify::methods::output_error::OutputError;
 use crate::identify::methods::regression::{MotorColumns, Solution, coupled_tips};
 use crate::replay::ModalArm;
 
@@ -52,6 +52,15 @@ pub(crate) struct CurveSums {
     /// Windows about each knot, forward and backward; none: a speed that no window has.
     windows: [Vec<usize>; 2],
     back_emf_viscous: f64,
+}
+
+/// An arm that a method above this one has found, with what is known of it.
+pub(crate) trait KnownArm {
+    fn arm(&self) -> &ModalArm;
+    /// Its friction without back-EMF.
+    fn friction(&self, back_emf_viscous: f64) -> Friction;
+    /// Variances of quantities of the arm, by the errors of its parameters.
+    fn variances(&self, of: &dyn Fn(&ModalArm) -> Option<Vec<Complex64>>) -> Option<Vec<f64>>;
 }
 
 impl CurveSums {
@@ -118,8 +127,8 @@ impl CurveSums {
     /// the slip phases: what they are off by does not go into friction. The standard errors are those by leaving out slip
     /// phases and those of the arm, all longer by one factor where the curve is further from the law that describes the log
     /// than they say: a sensor's steps come back with a repeated motion, alike in all its phases. `None` where the tips do not show all of its coupling torque, at once.
-    pub(crate) fn beside_arm(&self, found: &OutputError) -> Option<Vec<CurvePoint>> {
-        let known = self.known(&found.arm)?;
+    pub(crate) fn beside_arm(&self, found: &dyn KnownArm) -> Option<Vec<CurvePoint>> {
+        let known = self.known(found.arm())?;
         let columns = &self.columns[self.linear..];
         let rows = self.rows.less(&known);
         let solution = rows.solved(columns)?;
@@ -159,7 +168,7 @@ impl CurveSums {
     pub(crate) fn beside_law(
         &self,
         mut points: Vec<CurvePoint>,
-        found: &OutputError,
+        found: &dyn KnownArm,
     ) -> Vec<CurvePoint> {
         if let Some(longer) = self.beyond_law(&points, found) {
             for point in &mut points {
@@ -170,7 +179,7 @@ impl CurveSums {
     }
 
     /// How many of their standard errors points are off an arm's law of friction, root mean square; one at least.
-    fn beyond_law(&self, points: &[CurvePoint], found: &OutputError) -> Option<f64> {
+    fn beyond_law(&self, points: &[CurvePoint], found: &dyn KnownArm) -> Option<f64> {
         let law = found.friction(self.back_emf_viscous);
         let beyond = |p: &CurvePoint| {
             Some(((p.friction.value - law.at(p.speed, p.direction)?) / p.friction.std).powi(2))

@@ -10,7 +10,6 @@ mod candidates;
 pub(crate) mod choice;
 mod column_values;
 mod curve;
-mod friction_law_findings;
 mod lag;
 mod law_estimates;
 mod law_in_arm;
@@ -30,8 +29,7 @@ mod unused_torque;
 pub use candidates::{MissingKind, ModelTerm};
 pub use choice::LawCandidate;
 pub use curve::CurvePoint;
-pub(crate) use curve::CurveSums;
-pub(crate) use friction_law_findings::finding;
+pub(crate) use curve::{CurveSums, KnownArm};
 pub(crate) use lag::delayed;
 pub use lag::{AngleLag, LagShape};
 pub(crate) use law_term::NEAR_REST_STEP;
@@ -52,7 +50,6 @@ use crate::identify::methods::friction_law::prediction::{ByBlock, Divided, Impro
 use crate::identify::methods::friction_law::thresholds::{
     FASTEST_QUANTILE, LAG_SETTLED, LAG_SHAPE_TOLD, TORQUE_OF_NOISE,
 };
-use crate::identify::methods::output_error::OutputError;
 use crate::identify::methods::regression::{ModeShape, MotorRegression, Terms};
 use crate::identify::prepare::channel_noise::{ChannelNoise, channel_noise};
 use crate::identify::prepare::prepared::Prepared;
@@ -138,10 +135,9 @@ pub struct LawFit {
 }
 
 impl FrictionLaw {
-    /// With the curve that the output-error method's arm gives, if there is one that describes the runs: with what it
-    /// knows of the arm, or with standard errors that count what it knows of friction.
-    pub(crate) fn beside(self, sums: &CurveSums, replay: Option<&OutputError>) -> Self {
-        let Some(found) = replay else { return self };
+    /// With the curve that a known arm gives, if there is one that describes the runs: with what is known of the arm, or with standard errors that count what it knows of friction.
+    pub(crate) fn beside(self, sums: &CurveSums, known: Option<&dyn KnownArm>) -> Self {
+        let Some(found) = known else { return self };
         let curve = match sums.beside_arm(found) {
             Some(curve) => curve,
             None => sums.beside_law(self.curve, found),

@@ -11,11 +11,13 @@ use rayon::prelude::*;
 use crate::identify::methods::friction_law::column_values::ColumnValues;
 use crate::identify::methods::friction_law::law_term::Column;
 use crate::identify::methods::regression::{
-    Further, ModeShape, ModeTerms, ModeWindow, MotorColumns, MotorEquation, Phase, Rows,
-    SMOOTHED_PART, SMOOTHING_LEAST, SineAndCosine, WINDOW_STEP, Window, velocity_and_phases,
+    Further, ModeShape, ModeTerms, ModeWindow, MotorColumns, MotorEquation, Rows, SineAndCosine,
+    velocity_and_phases,
 };
 use crate::identify::methods::thresholds::SLOWEST_SAMPLE;
+use crate::identify::prepare::phases::{Phase, SMOOTHING_LEAST};
 use crate::identify::prepare::run_noise::RunNoise;
+use crate::identify::prepare::window::{SMOOTHED_PART, WINDOW_STEP, Window};
 use crate::load::GravityLoad;
 use crate::record::{Campaign, Run};
 

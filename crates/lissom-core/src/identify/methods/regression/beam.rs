@@ -12,9 +12,9 @@ use crate::identify::methods::regression::normal::{Cluster, Rows, Term, solve};
 use crate::identify::methods::regression::row_noise::{ChannelPart, products};
 use crate::identify::methods::regression::scan::{Candidate, Scan, scan};
 use crate::identify::methods::regression::thresholds::WINDOW_SYSTEMATIC;
-use crate::identify::methods::regression::window::{Weights, Window};
 use crate::identify::prepare::prepared::Prepared;
 use crate::identify::prepare::run_noise::RunNoise;
+use crate::identify::prepare::window::{Weights, Window};
 use crate::identify::thresholds::CLEARLY_PRESENT;
 use crate::record::{Axis, Campaign, Run, TipQuantity};
 

@@ -11,9 +11,9 @@ use crate::identify::methods::regression::motor_columns::coupled_tips;
 use crate::identify::methods::regression::motor_rows::{SineAndCosine, behind};
 use crate::identify::methods::regression::normal::{Cluster, Rows, Term, solve};
 use crate::identify::methods::regression::scan::scan;
-use crate::identify::methods::regression::window::Window;
 use crate::identify::options::Options;
 use crate::identify::prepare::prepared::Prepared;
+use crate::identify::prepare::window::Window;
 use crate::identify::thresholds::{CLEARLY_PRESENT, PRESENT};
 use crate::record::{Axis, Campaign, Run, TipQuantity};
 

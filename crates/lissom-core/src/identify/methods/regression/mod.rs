@@ -15,8 +15,6 @@ mod motor;
 mod motor_columns;
 mod motor_rows;
 mod normal;
-mod phases;
-mod regression_findings;
 mod row_noise;
 mod run_difference;
 mod scan;
@@ -24,7 +22,6 @@ mod sums_by_length;
 mod terms;
 pub(crate) mod thresholds;
 mod velocity;
-mod window;
 
 pub use beam::{BeamRegression, beam_regression};
 pub(crate) use fitted::Fitted;
@@ -44,12 +41,9 @@ pub(crate) use normal::{
     Cluster, NormalSums, Rows, ScoredEstimates, Scores, Solution, Term, solve, solve_sums,
     values_of,
 };
-pub(crate) use phases::{Phase, SMOOTHING_LEAST, needed_smoothing, slip_sign, smoothing};
-pub(crate) use regression_findings::{findings, reversed_tip};
 pub use run_difference::RunDifference;
 pub use scan::Candidate;
 pub(crate) use scan::scan;
 pub use terms::GravityPartner;
 pub(crate) use terms::Terms;
 pub(crate) use velocity::velocity_and_phases;
-pub(crate) use window::{SMOOTHED_PART, WINDOW_STEP, Weights, Window};

@@ -1,6 +1,6 @@
 //! Windows of the motor's equation with a mode that no tip measures.
 
-use crate::identify::methods::regression::window::{Weights, Window};
+use crate::identify::prepare::window::{Weights, Window};
 
 /// A part of the inertia behind a spring.
 #[derive(Debug, Clone, Copy, PartialEq)]

@@ -10,13 +10,11 @@ use rayon::iter::{IndexedParallelIterator, IntoParallelRefIterator, ParallelIter
 use crate::identify::methods::regression::mode_window::{Derivatives, ModeShape, ModeWindow};
 use crate::identify::methods::regression::motor_columns::{INERTIA, MotorColumns, VISCOUS};
 use crate::identify::methods::regression::normal::{Cluster, Rows};
-use crate::identify::methods::regression::phases::{
-    LEAST_SMOOTH, Phase, SMOOTHING_LEAST, unreversed_phases,
-};
 use crate::identify::methods::regression::row_noise::{ChannelPart, products};
 use crate::identify::methods::regression::thresholds::{BLOCKS_WANTED, FEW_PHASES, SURE_SIGN};
-use crate::identify::methods::regression::window::{SMOOTHED_PART, WINDOW_STEP, Weights, Window};
+use crate::identify::prepare::phases::{LEAST_SMOOTH, Phase, SMOOTHING_LEAST, unreversed_phases};
 use crate::identify::prepare::run_noise::RunNoise;
+use crate::identify::prepare::window::{SMOOTHED_PART, WINDOW_STEP, Weights, Window};
 use crate::record::{Campaign, CommandQuantity, Hold, Run, TipQuantity};
 
 /// The motor's equation on the windows of all runs.

@@ -7,7 +7,7 @@ use crate::identify::methods::regression::cluster_covariance::{larger, of_few, s
 use crate::identify::methods::regression::thresholds::{
     FEW_CLUSTERS, INSEPARABLE_WEIGHT, MOTION_LEAST, NOISE_FILLS, SAME_COLUMN,
 };
-use crate::identify::methods::regression::window::{WINDOW_STEP, Window};
+use crate::identify::prepare::window::{WINDOW_STEP, Window};
 
 /// Windows in a block of [`Cluster::blocks`].
 const WINDOWS_IN_BLOCK: usize = 40;

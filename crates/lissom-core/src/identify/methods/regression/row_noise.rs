@@ -2,7 +2,7 @@
 
 use nalgebra::DMatrix;
 
-use crate::identify::methods::regression::window::dot;
+use crate::identify::prepare::window::dot;
 
 /// A column's weights on the samples of a channel, and their sign.
 pub(super) type ChannelPart<'a> = (usize, &'a [f64], f64);

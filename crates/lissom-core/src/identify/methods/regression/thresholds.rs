@@ -2,12 +2,6 @@
 
 thresholds! {
     "regression" {
-        /// A velocity that is opposite to its slip phase by this many standard deviations is a
-        /// reversal and is cut out: noise alone gives none in many thousands of samples.
-        SURELY_REVERSED: f64 = 5.0, "standard deviations", Derived;
-        /// The motor is at rest if it is slower than this share of its largest velocity: an angle
-        /// that drifts slowly while friction holds the joint is not slip.
-        REST_SPEED: f64 = 1e-5, "1", Convention;
         /// A window is too short if its velocities are smoothed over less than this share of the
         /// time that a certain sign needs (`TRAVEL_OVER_NOISE`).
         SURE_SIGN: f64 = 0.4, "1", Convention;

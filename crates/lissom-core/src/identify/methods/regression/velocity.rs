@@ -1,7 +1,7 @@
 //! The motor's velocity, smoothed.
 
-use crate::identify::methods::regression::phases::{Phase, phases_of, velocities};
-use crate::identify::methods::regression::window::Window;
+use crate::identify::prepare::phases::{Phase, phases_of, velocities};
+use crate::identify::prepare::window::Window;
 
 /// Velocity at every sample, the angle weighted with the derivative of a window about it, and the slip phases of the same
 /// smoothing.
