@@ -1,4 +1,4 @@
-//! The steps from a campaign to its result: prepare, methods, responses, judge.
+//! The steps from a campaign to its result: prepare, methods, responses, output error, judge.
 
 use thiserror::Error;
 
@@ -10,14 +10,14 @@ use crate::identify::judge::{Evidence, Methods, conclude, slip_phase_solution, s
 use crate::identify::linear_models::LinearModels;
 use crate::identify::methods::constant_velocity;
 use crate::identify::methods::friction_law::{
-    FrictionLaw, KnownArm, friction_law, predicts_better,
+    AngleLag, CurveSums, FrictionLaw, KnownArm, MissingTerm, friction_law, predicts_better,
 };
-use crate::identify::methods::least_squares::least_squares;
+use crate::identify::methods::least_squares::{LeastSquares, least_squares};
 use crate::identify::methods::regression::thresholds::FEW_PHASES;
 use crate::identify::methods::regression::{
     BeamRegression, MotorRegression, beam_regression, other_hold, with_tips_in_time,
 };
-use crate::identify::methods::rigid_equation::rigid_equation;
+use crate::identify::methods::rigid_equation::{RigidEquation, rigid_equation};
 use crate::identify::methods::third_harmonic::{ThirdHarmonic, third_harmonic};
 use crate::identify::methods::unlike_runs::regression_of_like_runs;
 use crate::identify::options::{Effort, Options};
@@ -27,7 +27,7 @@ use crate::identify::prepare::prepared::Prepared;
 use crate::identify::prepare::run_analysis::RunKind;
 use crate::identify::replayed_responses::response_step::{ResponseTables, Responses, rigid_model};
 use crate::identify::responses::models::{beam_model, estimates_model};
-use crate::identify::responses::rational::BeamFit;
+use crate::identify::responses::rational::{BeamFit, MotorFit};
 use crate::identify::responses::response_point::ResponsePoint;
 use crate::identify::thresholds::{
     BEAM_RESIDUAL, BEAM_SHARES, CONSTANT_VELOCITY_ALONE, CONSTANT_VELOCITY_FEW, MODE_DAMPING_LEAST,
@@ -122,7 +122,6 @@ impl Stage {
 ///
 /// # Errors
 /// [`IdentifyError`] if no run moves, or if an option is not valid. Everything else is reported by findings.
-#[expect(clippy::too_many_lines, reason = "the order of the methods, in one place")]
 pub fn identify(
     campaign: &Campaign,
     options: &Options,
@@ -136,116 +135,61 @@ pub fn identify(
         return Err(IdentifyError::NothingMoves { runs, constant: prepared.constant_channels() });
     }
     progress(Stage::Regression);
-    // From constant velocities alone it is accepted if their transitions show the inertia.
-    let doubted = prepared.has_only_constant_velocities() && constant_velocity.is_some();
-    let (prepared, line_of_runs) = regression_of_like_runs(prepared, options);
-    let any_regression = line_of_runs.filter(|r| !doubted || is_sound_alone(r));
-    let (prepared, mut any_regression, late_tips) =
-        with_tips_in_time(prepared, any_regression, options);
+    let (prepared, line_of_phases, late_tips) =
+        line_of_slip_phases(prepared, options, constant_velocity.is_some());
     progress(Stage::Beam);
     // Each loops over the runs on all threads, and leaves some of them idle between its loops.
-    let (mut model, beside) = rayon::join(
-        || any_regression.as_ref().and_then(|r| friction_law(&prepared, r)),
+    let (phases, (beam_equation, third_harmonic)) = rayon::join(
+        || line_of_phases.map(|line| SlipPhases::new(&prepared, line)),
         || (beam_regression(&prepared), third_harmonic(&prepared)),
     );
-    if let Some(rigid) = &any_regression
-        && let Some(flexible) = &rigid.with_mode
-    {
-        let with_mode = friction_law(&prepared, flexible);
-        let [law, with] = [&model, &with_mode].map(|model| model.as_ref().map(|(law, _)| law));
-        if predicts_better((flexible, with), (&prepared, rigid, law)) {
-            let (left_out, beside_others) = (rigid.left_out.clone(), rigid.beside_others.clone());
-            let flexible = (**flexible).clone();
-            any_regression = Some(MotorRegression { left_out, beside_others, ..flexible });
-            model = with_mode;
-        }
-    }
-    let sound = any_regression.as_ref().filter(|r| r.relative_residual < REFUSED_TORQUE);
-    let hold = sound.and_then(|r| assumed_hold(prepared.used(), options, r));
-    let possible = model.as_ref().map_or_else(Vec::new, |(model, _)| model.possible.clone());
-    let missing = model.as_ref().map_or_else(Vec::new, |(model, _)| model.missing.clone());
-    let regression_residual = any_regression.as_ref().map(|r| r.relative_residual);
-    let lag = model.as_ref().and_then(|(model, _)| model.lag);
-    let regression = any_regression.clone().filter(|r| r.relative_residual < REFUSED_TORQUE);
-    let law = model.filter(|_| regression.is_some());
+    let explaining = phases.as_ref().filter(|phases| phases.explain());
+    let hold = explaining.and_then(|p| assumed_hold(prepared.used(), options, &p.regression));
     // What is found on slip phases is of commands that are as late as the angle.
+    let lag = phases.as_ref().and_then(SlipPhases::lag);
     let late = lag.map(|lag| prepared.using(lag.late(prepared.used())));
     let in_time = late.as_ref().unwrap_or(&prepared);
-    let window_s = regression.as_ref().map(|r| r.window_s);
-    let line = least_squares(in_time, window_s);
-    let (any_beam_regression, third_harmonic) = beside;
+    let line = least_squares(in_time, explaining.map(|p| p.regression.window_s));
 
-    let constant = campaign.channels.command.torque_per_unit();
-    let best = coulomb_command(regression.as_ref(), third_harmonic.as_ref(), constant);
-    let tables = ResponseTables { prepared: &prepared, coulomb_command: best };
+    let coulomb_command = coulomb_command(campaign, explaining, third_harmonic.as_ref());
+    let tables = ResponseTables { prepared: &prepared, coulomb_command };
     let shown = tables.without_friction_known();
     let tips_model = beam_model(campaign, &shown);
-    let replayed = any_regression.filter(|_| options.effort != Effort::Quick);
-    let output_error = replayed.and_then(|motor| {
+    let start = phases.as_ref().filter(|_| options.effort != Effort::Quick);
+    let output_error = start.and_then(|phases| {
         progress(Stage::OutputError);
-        let corrected = || tables.with_square_wave(best);
-        let (beam, tips) = (any_beam_regression.as_ref(), tips_model.as_ref());
-        let law = law.as_ref().map(|(law, _)| law);
-        let drive = law.map_or_else(|| motor.estimates(), |law| law.chosen.estimates());
-        // A replay knows a delay of the command, which it finds best itself, but no filter and no late goal.
-        let delay = lag.filter(|lag| lag.is_delay_of(campaign));
-        let replayed = if delay.is_some() { &prepared } else { in_time };
-        let lag_s = delay.map_or(0.0, |lag| lag.time_s);
-        let known = (&drive, &motor, lag_s);
-        let mut arms = starts_by_bending(replayed, options);
-        arms.extend(starting_arms(replayed.used(), known, beam, tips, &shown, corrected));
-        let arms = with_law(law, arms, replayed.used());
-        let shown_rad_s = tips.map_or(Vec::new(), BeamFit::frequencies_rad_s);
-        let start = OutputErrorStart { shown_rad_s, ..start_of(replayed, options, arms, law) };
-        let found = output_error(replayed, &start)?;
-        let (campaign, noise) = (replayed.used(), replayed.noise());
-        let unused =
-            law.and_then(|law| law.unused.with_arm(campaign, noise, law.window_s, &found.arm));
-        Some((found, unused))
+        let (beam, tips) = (beam_equation.as_ref(), tips_model.as_ref());
+        Simulation { tables, in_time, phases, beam, tips, shown: &shown }.found(options)
     });
-    let lawful = law.as_ref().is_some_and(|(law, _)| law.chosen.departs());
-    let doubted = !missing.is_empty() && !lawful;
-    let line_holds = !lawful && missing.is_empty();
-    let varies = line_holds && regression.as_ref().is_some_and(|r| r.varies_by().is_some());
-    let by_law = law.as_ref().map(|(law, _)| law);
-    let output_error = output_error
-        .map(|(oe, unused)| oe.beside_regression(doubted, varies).beside_law(unused, by_law));
-    let stands = output_error.as_ref().is_some_and(OutputError::stands);
-    let rigid = regression.as_ref().filter(|_| !stands);
-    let rigid = rigid.and_then(|r| rigid_equation(&prepared, options, r, by_law));
-    let (without_coupling, regression, law, line) = match rigid {
-        None => {
-            let regression = regression.map(|r| MotorRegression { possible, ..r });
-            (None, regression, law, line)
-        }
-        Some(rigid) => (Some(rigid.finding), Some(rigid.regression), rigid.law, rigid.line),
-    };
 
     progress(Stage::Responses);
+    let regression_residual = phases.as_ref().map(|p| p.regression.relative_residual);
+    let missing = phases.as_ref().map_or_else(Vec::new, SlipPhases::missing);
+    let drive = DriveEquation::of(&prepared, options, phases, line, output_error.as_ref());
     let replay = output_error.as_ref().filter(|o| o.describes_whole_runs());
-    let friction_law =
-        law.map(|(law, sums)| law.beside(&sums, replay.map(|found| found as &dyn KnownArm)));
-    let beam_regression = any_beam_regression.filter(is_sound_beam);
-    let phases = slip_phase_solution(regression.as_ref(), friction_law.as_ref());
-    let explained = phases.as_ref().zip(regression.as_ref()).and_then(|((method, drive), r)| {
-        Some((r, drive, slip_phase_terms(*method, Some(r), friction_law.as_ref())?))
-    });
-    let by_regression =
-        estimates_model(campaign, explained, friction_law.as_ref(), beam_regression.as_ref());
-    let rigid = output_error.as_ref().and_then(|oe| rigid_model(campaign, oe));
+    let curve_of_arm = replay.map(|found| found as &dyn KnownArm);
+    let friction_law = drive.law.map(|(law, sums)| law.beside(&sums, curve_of_arm));
+    let beam_regression = beam_equation.filter(is_sound_beam);
+    let by_regression = model_of_estimates(
+        campaign,
+        drive.regression.as_ref(),
+        friction_law.as_ref(),
+        beam_regression.as_ref(),
+    );
+    let rigid = output_error.as_ref().and_then(|found| rigid_model(campaign, found));
     let Responses { points, motor_model, beam_model, findings: response_findings } =
         tables.with_models(replay, tips_model, by_regression, rigid);
-    let third = third_harmonic.as_ref();
-    let third_harmonic_model =
-        third.and_then(|t| tables.model_with(t.coulomb_command, beam_model.as_ref()));
+    let third_harmonic_model = third_harmonic
+        .as_ref()
+        .and_then(|third| tables.model_with(third.coulomb_command, beam_model.as_ref()));
     let (equivalent, refused) = equivalent_arm(campaign, &points);
     let methods = Methods {
         third_harmonic,
         third_harmonic_model,
-        regression,
+        regression: drive.regression,
         regression_residual,
         missing,
-        least_squares: line,
+        least_squares: drive.line,
         friction_law,
         constant_velocity,
         beam_regression,
@@ -254,14 +198,158 @@ pub fn identify(
         motor_model,
     };
     let evidence = Evidence::of(&prepared, &methods);
-    let findings =
-        [prepared.findings().to_vec(), steady_findings, response_findings, refused].concat();
-    let findings = findings.into_iter().chain(without_coupling).chain(hold);
-    let findings = findings.chain(late_tips).collect();
-    let conclusion = conclude(&evidence, findings);
+    let findings = [
+        prepared.findings().to_vec(),
+        steady_findings,
+        response_findings,
+        refused,
+        drive.without_coupling.into_iter().chain(hold).collect(),
+        late_tips,
+    ];
+    let conclusion = conclude(&evidence, findings.concat());
     let models = LinearModels::of(&evidence);
     let runs = prepared.into_runs();
     Ok(Identified::new(campaign, methods, runs, points, (models, equivalent), conclusion))
+}
+
+/// The regression in slip phases of the runs that are alike, with tips that are read in time, and what was found on the way.
+fn line_of_slip_phases<'a>(
+    prepared: Prepared<'a>,
+    options: &Options,
+    has_constant_velocities: bool,
+) -> (Prepared<'a>, Option<MotorRegression>, Vec<Finding>) {
+    // From constant velocities alone it is accepted if their transitions show the inertia.
+    let doubted = prepared.has_only_constant_velocities() && has_constant_velocities;
+    let (prepared, regression) = regression_of_like_runs(prepared, options);
+    let accepted = regression.filter(|r| !doubted || is_sound_alone(r));
+    with_tips_in_time(prepared, accepted, options)
+}
+
+/// What slip phases show: the regression, and the model of the torque that predicts best.
+struct SlipPhases {
+    regression: MotorRegression,
+    model: Option<(FrictionLaw, CurveSums)>,
+}
+
+impl SlipPhases {
+    /// With the hidden mode of the regression, if it has one and predicts better with it.
+    fn new(prepared: &Prepared<'_>, line: MotorRegression) -> Self {
+        let rigid = friction_law(prepared, &line);
+        let Some(flexible) = line.with_mode.clone() else {
+            return Self { regression: line, model: rigid };
+        };
+        let with_mode = friction_law(prepared, &flexible);
+        let [law, with] = [&rigid, &with_mode].map(|model| model.as_ref().map(|(law, _)| law));
+        if predicts_better((&flexible, with), (prepared, &line, law)) {
+            let MotorRegression { left_out, beside_others, .. } = line;
+            let regression = MotorRegression { left_out, beside_others, ..*flexible };
+            return Self { regression, model: with_mode };
+        }
+        Self { regression: line, model: rigid }
+    }
+
+    /// Whether the regression explains enough of the torque for its estimates to be used.
+    fn explain(&self) -> bool {
+        self.regression.relative_residual < REFUSED_TORQUE
+    }
+
+    /// The friction law, if the regression can be used.
+    fn law(&self) -> Option<&FrictionLaw> {
+        self.model.as_ref().filter(|_| self.explain()).map(|(law, _)| law)
+    }
+
+    fn lag(&self) -> Option<AngleLag> {
+        self.model.as_ref().and_then(|(law, _)| law.lag)
+    }
+
+    /// What the logs show and the model does not contain, whether or not it can be used.
+    fn missing(&self) -> Vec<MissingTerm> {
+        self.model.as_ref().map_or_else(Vec::new, |(law, _)| law.missing.clone())
+    }
+}
+
+/// What the output-error method starts from.
+struct Simulation<'a> {
+    tables: ResponseTables<'a>,
+    /// The runs with commands as late as the angle.
+    in_time: &'a Prepared<'a>,
+    phases: &'a SlipPhases,
+    beam: Option<&'a BeamRegression>,
+    tips: Option<&'a BeamFit>,
+    shown: &'a [ResponsePoint],
+}
+
+impl Simulation<'_> {
+    /// The arm that describes the runs best, held to what slip phases show.
+    fn found(&self, options: &Options) -> Option<OutputError> {
+        let Self { tables, phases, shown, .. } = self;
+        let (law, prepared) = (phases.law(), tables.prepared);
+        let drive = law.map_or_else(|| phases.regression.estimates(), |law| law.chosen.estimates());
+        // A replay knows a delay of the command, which it finds best itself, but no filter and no late goal.
+        let delay = phases.lag().filter(|lag| lag.is_delay_of(prepared.campaign()));
+        let runs = if delay.is_some() { prepared } else { self.in_time };
+        let known = (&drive, &phases.regression, delay.map_or(0.0, |lag| lag.time_s));
+        let corrected = || tables.with_square_wave(tables.coulomb_command);
+        let mut arms = starts_by_bending(runs, options);
+        arms.extend(starting_arms(runs.used(), known, self.beam, self.tips, shown, corrected));
+        let arms = with_law(law, arms, runs.used());
+        let shown_rad_s = self.tips.map_or(Vec::new(), BeamFit::frequencies_rad_s);
+        let start = OutputErrorStart { shown_rad_s, ..start_of(runs, options, arms, law) };
+        let found = output_error(runs, &start)?;
+        let (used, noise) = (runs.used(), runs.noise());
+        let unused = law.and_then(|l| l.unused.with_arm(used, noise, l.window_s, &found.arm));
+        let lawful = law.is_some_and(|law| law.chosen.departs());
+        let lacks_term = !lawful && !phases.missing().is_empty();
+        let varies =
+            !lawful && !lacks_term && phases.explain() && phases.regression.varies_by().is_some();
+        Some(found.beside_regression(lacks_term, varies).beside_law(unused, law))
+    }
+}
+
+/// The motor's equation that the result may take: with the coupling to the beam, or without it where that is hardly known.
+#[derive(Default)]
+struct DriveEquation {
+    regression: Option<MotorRegression>,
+    law: Option<(FrictionLaw, CurveSums)>,
+    line: Option<LeastSquares>,
+    /// Why it has no coupling.
+    without_coupling: Option<Finding>,
+}
+
+impl DriveEquation {
+    fn of(
+        prepared: &Prepared<'_>,
+        options: &Options,
+        phases: Option<SlipPhases>,
+        line: Option<LeastSquares>,
+        output_error: Option<&OutputError>,
+    ) -> Self {
+        let Some(phases) = phases.filter(SlipPhases::explain) else {
+            return Self { line, ..Self::default() };
+        };
+        let stands = output_error.is_some_and(OutputError::stands);
+        let rigid = || rigid_equation(prepared, options, &phases.regression, phases.law());
+        if let Some(rigid) = (!stands).then(rigid).flatten() {
+            let RigidEquation { regression, law, line, finding } = rigid;
+            let regression = Some(regression);
+            return Self { regression, law, line, without_coupling: Some(finding) };
+        }
+        let possible = phases.model.as_ref().map_or_else(Vec::new, |(law, _)| law.possible.clone());
+        let regression = Some(MotorRegression { possible, ..phases.regression });
+        Self { regression, law: phases.model, line, without_coupling: None }
+    }
+}
+
+/// Models of motor and beam by the estimates of slip phases, where these explain all.
+fn model_of_estimates(
+    campaign: &Campaign,
+    regression: Option<&MotorRegression>,
+    law: Option<&FrictionLaw>,
+    beam: Option<&BeamRegression>,
+) -> Option<(MotorFit, Option<BeamFit>)> {
+    let (method, drive) = slip_phase_solution(regression, law)?;
+    let terms = slip_phase_terms(method, regression, law)?;
+    estimates_model(campaign, (regression?, &drive, terms), law, beam)
 }
 
 /// What an assumed hold of the command changes.
@@ -294,12 +382,13 @@ fn possible(options: &Options) -> Result<(), IdentifyError> {
 
 /// Coulomb friction in the command's unit, by the best method that needs no replay.
 fn coulomb_command(
-    regression: Option<&MotorRegression>,
+    campaign: &Campaign,
+    explaining: Option<&SlipPhases>,
     third_harmonic: Option<&ThirdHarmonic>,
-    constant: f64,
 ) -> Option<Estimate> {
-    let from_regression = regression.and_then(|r| r.coulomb).map(|c| c.scaled(1.0 / constant));
-    from_regression.filter(|c| c.value > 0.0).or(third_harmonic.map(|t| t.coulomb_command))
+    let per_torque = 1.0 / campaign.channels.command.torque_per_unit();
+    let of_phases = explaining.and_then(|p| p.regression.coulomb).map(|c| c.scaled(per_torque));
+    of_phases.filter(|c| c.value > 0.0).or(third_harmonic.map(|t| t.coulomb_command))
 }
 
 /// Whether a regression of nothing but constant velocities gives all parameters of the drive, from transitions enough.

@@ -17,11 +17,10 @@ use crate::record::{Campaign, Tip};
 /// tips and without a mode, or one tip that follows one mode.
 pub(crate) fn estimates_model(
     campaign: &Campaign,
-    motor: Option<(&MotorRegression, &DriveEstimates, &Terms)>,
+    (regression, drive, terms): (&MotorRegression, &DriveEstimates, &Terms),
     law: Option<&FrictionLaw>,
     beam: Option<&BeamRegression>,
 ) -> Option<(MotorFit, Option<BeamFit>)> {
-    let (regression, drive, terms) = motor?;
     let left = law.map_or(regression.relative_residual, |law| law.relative_residual[1]);
     if left >= MODEL_EXPLAINED || regression.mode.is_some() {
         return None;
