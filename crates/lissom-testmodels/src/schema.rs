@@ -53,7 +53,10 @@ impl SchemaCheck {
             self.value(&target, value, at);
         }
         if let Some(options) = schema["anyOf"].as_array() {
-            let fits = options.iter().find(|o| value.is_null() == (o["type"] == "null"));
+            let fits = options.iter().find(|o| match &o["type"] {
+                Value::Null => !value.is_null(),
+                kind => has_type(kind, value),
+            });
             match fits {
                 Some(option) => self.value(option, value, at),
                 None => self.wrong.push(format!("{at} fits nothing")),

@@ -66,6 +66,12 @@ impl Gravity {
     }
 }
 
+/// Torque per command by which the load that was found is the one that the campaign says.
+pub(crate) fn torque_constant(campaign: &Campaign, gravity: Option<Gravity>) -> Option<Estimate> {
+    let assumed = campaign.channels.command.torque_per_unit();
+    Some(gravity?.torque_constant(campaign.mgl_nm?, assumed))
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -87,10 +93,4 @@ mod tests {
             assert!((found.std / variance.sqrt() - 1.0).abs() < 1e-6, "{k}: {}", found.std);
         }
     }
-}
-
-/// Torque per command by which the load that was found is the one that the campaign says.
-pub(crate) fn torque_constant(campaign: &Campaign, gravity: Option<Gravity>) -> Option<Estimate> {
-    let assumed = campaign.channels.command.torque_per_unit();
-    Some(gravity?.torque_constant(campaign.mgl_nm?, assumed))
 }

@@ -1,4 +1,5 @@
 //! Phases in which the motor slips one way.
+#![expect(clippy::inline_always, reason = "compiled for wide registers as one: half the time")]
 
 use crate::identify::prepare::thresholds::{REST_SPEED, SURELY_REVERSED};
 use crate::identify::prepare::window::Window;

@@ -1,4 +1,5 @@
 //! The smooth window of the regression.
+#![expect(clippy::inline_always, reason = "compiled for wide registers as one: half the time")]
 
 use std::f64::consts::PI;
 use std::ops::Deref;
