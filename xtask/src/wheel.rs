@@ -35,7 +35,7 @@ assert not {'pandas', 'matplotlib', 'control'} & set(sys.modules)
 /// How a wheel is built.
 #[derive(Clone, Copy, PartialEq, Eq)]
 pub(crate) enum Build {
-    /// From what the tests of the workspace have built already, for this machine only.
+    /// With the development profile, for this machine only: the dependencies are those of the tests.
     Tested,
     /// As it would be published.
     Published,

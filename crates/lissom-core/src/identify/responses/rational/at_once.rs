@@ -114,7 +114,7 @@ impl Joint {
         information(readings, readings - self.free() as usize, self.point.cost)
     }
 
-    /// Root mean square of what is left of the motor's response, in its stretched standard errors.
+    /// Root mean square of the motor's residual, relative to its stretched standard errors.
     fn motor_rms(&self) -> f64 {
         let last = self.data.outputs.len() - 1;
         let delays = usize::from(self.data.outputs[last].delay_s.is_some());

@@ -119,7 +119,7 @@ pub fn fit_beam(omega_rad_s: &[f64], tips: &[TipData]) -> Option<BeamFit> {
         let spread = part_error(weighted_rms);
         let covariance = point.covariance()? * spread.powi(2);
         let fit = BeamFit::of_point(tips, &point, &covariance, (0..count).collect());
-        // Standard errors by what is left, also where that is less than the responses claim.
+        // Standard errors by the residual, also where it is smaller than the responses claim.
         let clear = CLEARLY_PRESENT * weighted_rms / spread;
         let felt = |k: usize| fit.residues.iter().any(|r| r[k].value.abs() > clear * r[k].std);
         let score = information(readings, unknowns, point.cost);
@@ -172,7 +172,7 @@ impl TipForm {
 }
 
 impl BeamFit {
-    /// Of poles and residues that were fitted to the tips first, and whose unknowns have this covariance. What is left is zero.
+    /// Of poles and residues that were fitted to the tips first, and whose unknowns have this covariance, with residuals of zero.
     pub(super) fn of_point(
         tips: &[TipData],
         point: &PolePoint,
@@ -219,7 +219,7 @@ impl BeamFit {
         }
     }
 
-    /// Root mean square of what is left of the tips' responses, relative to these.
+    /// Root mean square of the residual of the tips' responses, relative to that of the responses.
     fn relative_residual(&self, omega_rad_s: &[f64], tips: &[TipData]) -> f64 {
         let (mut left, mut power) = (0.0, 0.0);
         for (tip, residues) in tips.iter().zip(&self.residues) {
